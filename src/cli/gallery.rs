@@ -9,7 +9,7 @@ use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
-use crate::gallery::{self, Entry, PageFacts};
+use crate::gallery::{self, GalleryEntry, PageFacts};
 use crate::output::{self, Output};
 
 /// Makes one page that teaches shadows by their failures: each on purpose, beside its cure and the ray tracer's truth, with
@@ -95,7 +95,7 @@ pub fn run(arguments: &GalleryArgs, screen: Screen) -> Result<(), Error> {
 }
 
 /// Writes one picture.
-fn picture(entry: &Entry, which: Which, arguments: &GalleryArgs, screen: Screen) -> Result<(), Error> {
+fn picture(entry: &GalleryEntry, which: Which, arguments: &GalleryArgs, screen: Screen) -> Result<(), Error> {
     let context = context::open(&arguments.context.request(Profile::Core33))?;
     screen.driver(context.as_ref());
     let shown = gallery::show(entry, arguments.quick, &mut Renderer::new(&context))?;

@@ -4,7 +4,7 @@ use std::io;
 
 use image::RgbImage;
 
-use super::entry::{Entry, Measure, WrittenSide};
+use super::entry::{EntryMeasure, GalleryEntry, WrittenSide};
 use super::faults::Fault;
 use super::{Error, scenes};
 use crate::device::Pixels;
@@ -12,6 +12,7 @@ use crate::frame::{Renderer, ShadeImage};
 use crate::judge::colors::{self, ColorErrors, DrawnColors};
 use crate::judge::difference::difference_picture;
 use crate::judge::metrics::{self, Band};
+use crate::judge::truth_pictures::of_colors;
 use crate::output;
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::png_file::{self, PngTexts};
@@ -21,16 +22,16 @@ use crate::views::View;
 
 /// One of an entry's two sides.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Side {
+pub enum EntrySide {
     Failure,
     Cure,
 }
 
 /// An entry with its pictures and numbers.
 #[derive(Clone, Debug)]
-pub struct Shown {
-    pub failure: Drawn,
-    pub cure: Drawn,
+pub struct ShownEntry {
+    pub failure: DrawnSide,
+    pub cure: DrawnSide,
     /// The scene of the cure by ray casting.
     pub truth: RgbImage,
     /// Errors of the failure over the truth.
@@ -39,7 +40,7 @@ pub struct Shown {
 
 /// One side as it was drawn.
 #[derive(Clone, Debug)]
-pub struct Drawn {
+pub struct DrawnSide {
     pub scene: Scene,
     pub picture: RgbImage,
     pub plan: Plan,
@@ -56,28 +57,28 @@ pub struct Numbers {
 
 impl Numbers {
     /// A measure's number.
-    pub fn get(&self, measure: Measure) -> Option<f64> {
+    pub fn get(&self, measure: EntryMeasure) -> Option<f64> {
         match measure {
-            Measure::FalseShadow => self.false_shadow,
-            Measure::Leak => self.leak,
-            Measure::Wrong => Some(self.false_shadow? + self.leak?),
-            Measure::Colors => Some(self.colors?.beyond_percent),
-            Measure::Rmse => Some(self.colors?.rmse_codes),
+            EntryMeasure::FalseShadow => self.false_shadow,
+            EntryMeasure::Leak => self.leak,
+            EntryMeasure::Wrong => Some(self.false_shadow? + self.leak?),
+            EntryMeasure::Colors => Some(self.colors?.beyond_percent),
+            EntryMeasure::Rmse => Some(self.colors?.rmse_codes),
         }
     }
 }
 
-impl Entry {
+impl GalleryEntry {
     /// The side as written.
-    pub fn side(&self, side: Side) -> &WrittenSide {
+    pub fn side(&self, side: EntrySide) -> &WrittenSide {
         match side {
-            Side::Failure => &self.failure,
-            Side::Cure => &self.cure,
+            EntrySide::Failure => &self.failure,
+            EntrySide::Cure => &self.cure,
         }
     }
 
     /// Overrides of a side in their order, as `--set` takes them.
-    pub fn overrides(&self, side: Side) -> Vec<String> {
+    pub fn overrides(&self, side: EntrySide) -> Vec<String> {
         self.set.iter().chain(&self.side(side).set).cloned().collect()
     }
 
@@ -86,7 +87,7 @@ impl Entry {
     /// # Errors
     ///
     /// A scene that is not compiled in, or an override that does not fit it.
-    pub fn scene_of(&self, side: Side, quick: bool) -> Result<Scene, Error> {
+    pub fn scene_of(&self, side: EntrySide, quick: bool) -> Result<Scene, Error> {
         let embedded = scenes::find(&self.scene)
             .ok_or_else(|| Error::NoScene { id: self.id.clone(), scene: self.scene.clone() })?;
         let mut overrides = self.overrides(side);
@@ -120,8 +121,8 @@ enum Compared {
 /// # Errors
 ///
 /// A scene that cannot be loaded, planned, drawn or traced.
-pub fn show(entry: &Entry, quick: bool, renderer: &mut Renderer) -> Result<Shown, Error> {
-    let [failing, cured] = [entry.scene_of(Side::Failure, quick)?, entry.scene_of(Side::Cure, quick)?];
+pub fn show(entry: &GalleryEntry, quick: bool, renderer: &mut Renderer) -> Result<ShownEntry, Error> {
+    let [failing, cured] = [entry.scene_of(EntrySide::Failure, quick)?, entry.scene_of(EntrySide::Cure, quick)?];
     let traced = |reason| Error::Truth { id: entry.id.clone(), reason };
     let true_colors = colors::true_colors(&cured, entry.light);
     let compared = if entry.measure.is_of_colors() {
@@ -138,17 +139,17 @@ pub fn show(entry: &Entry, quick: bool, renderer: &mut Renderer) -> Result<Shown
         }
         (Err(_), Compared::Shade(truth)) => crate::judge::difference::truth_picture(truth),
     };
-    Ok(Shown { failure, cure, truth, difference })
+    Ok(ShownEntry { failure, cure, truth, difference })
 }
 
 /// A side, and its differences from the truth as a picture.
 fn draw(
-    entry: &Entry,
+    entry: &GalleryEntry,
     fault: Option<Fault>,
     mut scene: Scene,
     compared: &Compared,
     renderer: &mut Renderer,
-) -> Result<(Drawn, RgbImage), Error> {
+) -> Result<(DrawnSide, RgbImage), Error> {
     let failed = |reason| Error::Frame { id: entry.id.clone(), reason };
     if let Some(change) = fault.and_then(Fault::change) {
         change.apply(&mut scene).map_err(|reason| Error::Skin { id: entry.id.clone(), reason })?;
@@ -156,13 +157,14 @@ fn draw(
     let mut plan = renderer.plan(&scene, &Request::default()).map_err(failed)?;
     make(fault, &mut plan, &scene).ok_or_else(|| Error::NoFault { id: entry.id.clone() })?;
     renderer.draw(&plan).map_err(failed)?;
-    let picture = to_rgb(&renderer.read(&plan).map_err(failed)?.picture);
+    let pixels = renderer.read(&plan).map_err(failed)?.picture;
+    let picture = to_rgb(&pixels);
     let (numbers, difference) = match compared {
         Compared::Colors(truth) => {
             let drawn = drawn_colors(&picture);
             let errors = colors::errors_of(truth, &drawn).map(|(errors, _)| errors);
             let errors = errors.ok_or_else(|| Error::NothingKnown { id: entry.id.clone() })?;
-            (Numbers { colors: Some(errors), ..Numbers::default() }, color_difference(truth, &picture))
+            (Numbers { colors: Some(errors), ..Numbers::default() }, to_rgb(&of_colors(truth, &pixels, true, false)))
         }
         Compared::Shade(truth) => {
             let judged = |reason| Error::Judge { id: entry.id.clone(), reason };
@@ -184,7 +186,7 @@ fn draw(
             (numbers, difference_picture(truth, &shade).map_err(judged)?)
         }
     };
-    Ok((Drawn { scene, picture, plan, numbers }, difference))
+    Ok((DrawnSide { scene, picture, plan, numbers }, difference))
 }
 
 /// Makes a mistake in the passes; `None`: they have nothing that it changes.
@@ -222,25 +224,6 @@ fn to_rgb(pixels: &Pixels) -> RgbImage {
 fn drawn_colors(picture: &RgbImage) -> DrawnColors {
     let codes = picture.pixels().map(|pixel| pixel.0.map(f64::from));
     DrawnColors { size: [picture.width(), picture.height()], codes: codes.collect() }
-}
-
-/// Factor of differences of colours, so that a small one is seen.
-pub const LOUDER: f64 = 8.0;
-
-/// Differences from the true colours, [`LOUDER`] times as large; grey where a colour is not known.
-fn color_difference(truth: &ColorTruth, picture: &RgbImage) -> RgbImage {
-    let mut difference = picture.clone();
-    for (pixel, due) in difference.pixels_mut().zip(&truth.pixels) {
-        pixel.0 = match due.is_known {
-            false => crate::judge::difference::AMBIGUOUS,
-            true => std::array::from_fn(|k| {
-                let code = f64::from(pixel.0[k]);
-                let off = (255.0 * due.rgb[k].least - code).max(code - 255.0 * due.rgb[k].most).max(0.0);
-                (LOUDER * off).min(255.0) as u8
-            }),
-        };
-    }
-    difference
 }
 
 /// A picture as a PNG file.

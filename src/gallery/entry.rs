@@ -3,14 +3,13 @@
 use serde::Deserialize;
 
 use super::Error;
-use super::diagrams::DiagramKind;
 use super::faults::Fault;
 use crate::scene;
 
 /// A failure and its cure.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Entry {
+pub struct GalleryEntry {
     /// Name in links, files and `--entry`.
     pub id: String,
     pub title: String,
@@ -38,7 +37,7 @@ pub struct Entry {
     pub failure: WrittenSide,
     pub cure: WrittenSide,
     /// Number that tells the failure from the cure.
-    pub measure: Measure,
+    pub measure: EntryMeasure,
     /// The failure's number is at least so many times the cure's.
     pub factor: f64,
     /// The failure's number is at least this, in the measure's unit.
@@ -64,7 +63,7 @@ pub struct WrittenSide {
 /// Number that tells a failure from its cure.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
-pub enum Measure {
+pub enum EntryMeasure {
     /// Percent of the surfaces that face the light: shadow where light belongs.
     FalseShadow,
     /// Percent of these: light where shadow belongs.
@@ -77,7 +76,7 @@ pub enum Measure {
     Rmse,
 }
 
-impl Measure {
+impl EntryMeasure {
     /// The measure in words, as a table's row names it.
     pub fn name(self) -> &'static str {
         match self {
@@ -100,15 +99,35 @@ impl Measure {
     }
 }
 
+/// Diagram of an entry.
+#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
+#[serde(rename_all = "kebab-case")]
+pub enum DiagramKind {
+    /// A shadow map's texels as a stair against the surface [HSM, Figure 3].
+    Texels,
+    /// The chain of matrices, with the numbers of a point [HSM, Figures 7 and 8].
+    Transforms,
+    /// A cut through shadow volumes with their counts.
+    Volumes,
+    /// The light's frustum along its axis [HSM, Figure 1].
+    Frustum,
+    /// The same with the mirrored frustum behind the light.
+    BackProjection,
+    /// Equal steps on the screen, and on a surface [Segal 1992, Figures 1 and 2].
+    Perspective,
+    /// The two depth ranges of the ledge.
+    Ledge,
+}
+
 /// Every entry, in the page's order.
 ///
 /// # Errors
 ///
 /// A file that was compiled in damaged.
-pub fn entries() -> Result<Vec<Entry>, Error> {
+pub fn entries() -> Result<Vec<GalleryEntry>, Error> {
     #[derive(Deserialize)]
     struct File {
-        entry: Vec<Entry>,
+        entry: Vec<GalleryEntry>,
     }
     let file: File = toml::from_str(include_str!("../../data/gallery/entries.toml"))?;
     Ok(file.entry)
@@ -119,7 +138,7 @@ pub fn entries() -> Result<Vec<Entry>, Error> {
 /// # Errors
 ///
 /// An id that no entry has.
-pub fn chosen(ids: &[String]) -> Result<Vec<Entry>, Error> {
+pub fn chosen(ids: &[String]) -> Result<Vec<GalleryEntry>, Error> {
     let all = entries()?;
     if let Some(id) = ids.iter().find(|id| all.iter().all(|entry| entry.id != **id)) {
         let hint = scene::suggest(id, all.iter().map(|entry| entry.id.as_str()));
@@ -128,7 +147,7 @@ pub fn chosen(ids: &[String]) -> Result<Vec<Entry>, Error> {
     Ok(all.into_iter().filter(|entry| ids.is_empty() || ids.contains(&entry.id)).collect())
 }
 
-impl Entry {
+impl GalleryEntry {
     /// Tests whether the two numbers are as far apart as the entry says.
     pub fn is_kept_by(&self, failure: f64, cure: f64) -> bool {
         failure >= self.least && failure >= self.factor * cure

@@ -96,7 +96,7 @@ fn unscaled([s, t, r, q]: [DVec4; 4]) -> [DVec4; 4] {
     [2.0 * s - q, 2.0 * t - q, 2.0 * r - q, q]
 }
 
-const AVERAGED: Chunk = glsl!("gallery/averaged_depths.frag");
+const AVERAGED: Chunk = glsl!("shadow_map/averaged_depths.frag");
 const MAP: &str = "shadow_map/map.glsl";
 const SHADE: &str = "shadow_map/shade.frag";
 

@@ -12,8 +12,8 @@ mod faults;
 mod page;
 mod scenes;
 
-pub use draw::{Drawn, Shown, Side, show};
-pub use entry::{Entry, Measure, chosen, entries};
+pub use draw::{DrawnSide, EntrySide, ShownEntry, show};
+pub use entry::{EntryMeasure, GalleryEntry, chosen, entries};
 pub use faults::Fault;
 pub use page::{PageFacts, to_html};
 pub use scenes::find as scene;

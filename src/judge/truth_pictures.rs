@@ -14,7 +14,7 @@ use crate::truth::{self, ColorRequest};
 use crate::views::View;
 
 /// Factor of a difference of colours in a picture of 8 bits, so that a code of 255 is visible.
-const LOUDER: f32 = 16.0;
+pub const LOUDER: f32 = 16.0;
 
 /// Greatest width of a colour's bounds, in codes of 1/255, at which pictures are compared with its value, not its bounds.
 const SMOOTH_CODES: f64 = 8.0;
@@ -107,6 +107,11 @@ fn colors(scene: &Scene, picture: &Pixels, is_difference: bool, is_exact: bool) 
     let shadows: Vec<_> = scene.lights.iter().map(|light| shadow_of(&light.shadow, false)).collect();
     let request = ColorRequest { float_picture: is_exact, ..ColorRequest::default() };
     let truth = truth::color_as(scene, &shadows, &request, &color_options(scene))?;
+    Ok(of_colors(&truth, picture, is_difference, is_exact))
+}
+
+/// The same by colours that are known already; `picture` has their size.
+pub fn of_colors(truth: &truth::ColorTruth, picture: &Pixels, is_difference: bool, is_exact: bool) -> Pixels {
     let drawn: Vec<f32> = match picture {
         Pixels::Rgba8 { data, .. } => data.iter().map(|code| f32::from(*code) / 255.0).collect(),
         Pixels::RgbaF32 { data, .. } => data.clone(),
@@ -128,7 +133,7 @@ fn colors(scene: &Scene, picture: &Pixels, is_difference: bool, is_exact: bool) 
         [value(0), value(1), value(2), 1.0]
     };
     let data = truth.pixels.iter().zip(drawn.chunks_exact(4)).flat_map(of).collect();
-    Ok(Pixels::RgbaF32 { size: scene.image.size, data })
+    Pixels::RgbaF32 { size: [truth.width, truth.height], data }
 }
 
 fn opaque(picture: &RgbImage, is_exact: bool) -> Pixels {

@@ -12,7 +12,7 @@ use base64::engine::general_purpose::STANDARD;
 use glumbra::context::{self, ContextRequest};
 use glumbra::figures::FIGURES;
 use glumbra::frame::Renderer;
-use glumbra::gallery::{self, Entry, PageFacts, Shown, Side};
+use glumbra::gallery::{self, EntrySide, GalleryEntry, PageFacts, ShownEntry};
 use glumbra::techniques::{LightShadow, TABLE};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -21,10 +21,10 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
 
 /// Every entry in quick pictures, and the page.
-static GALLERY: LazyLock<(Vec<(Entry, Shown)>, String)> = LazyLock::new(|| {
+static GALLERY: LazyLock<(Vec<(GalleryEntry, ShownEntry)>, String)> = LazyLock::new(|| {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
-    let shown: Vec<(Entry, Shown)> = gallery::chosen(&[])
+    let shown: Vec<(GalleryEntry, ShownEntry)> = gallery::chosen(&[])
         .unwrap()
         .into_iter()
         .map(|entry| {
@@ -106,10 +106,10 @@ fn entries_cover_the_techniques_and_cite_what_documents_md_lists() {
         for section in entry.section.split("; ") {
             assert!(documents.contains(section), "{id}: data/documents.md has no section {section:?}");
         }
-        for side in [Side::Failure, Side::Cure] {
+        for side in [EntrySide::Failure, EntrySide::Cure] {
             let scene = entry.scene_of(side, false).unwrap();
             let chosen = LightShadow::of(&scene.lights[entry.light].shadow).unwrap().technique.name();
-            assert!(side == Side::Cure || chosen == entry.technique, "{id}: the failing light has {chosen}");
+            assert!(side == EntrySide::Cure || chosen == entry.technique, "{id}: the failing light has {chosen}");
         }
         assert!(entry.factor > 1.0 && entry.least > 0.0, "{id}: a failure that need not be worse");
         let figure = entry.figure.as_deref();

@@ -6,10 +6,10 @@ use glam::{DVec2, dvec2};
 use super::Diagram;
 use super::section::{Placement, Section};
 use super::svg::Svg;
-use crate::gallery::draw::Drawn;
+use crate::gallery::draw::DrawnSide;
 
 /// The diagram of a side; `None`: its first light is no spotlight. `mirrored`: with what lies behind the light.
-pub fn draw(drawn: &Drawn, mirrored: bool) -> Option<Diagram> {
+pub fn draw(drawn: &DrawnSide, mirrored: bool) -> Option<Diagram> {
     let scene = &drawn.scene;
     let frustum = &scene.lights.first()?.spot()?.frustum;
     let section = Section::through(frustum.position, frustum.target, frustum.position + frustum.up)?;

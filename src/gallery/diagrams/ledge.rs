@@ -5,14 +5,14 @@ use glam::{DVec2, dvec2};
 
 use super::Diagram;
 use super::svg::{Svg, WIDTH};
-use crate::gallery::draw::Drawn;
+use crate::gallery::draw::DrawnSide;
 use crate::math::ledge::Ledge;
 
 /// Depths of the talk: where volumes and scene begin, and where both end.
 const RANGES: [f64; 3] = [0.05, 0.1, 1.0];
 
 /// The diagram of a side's camera, with the talk's ranges.
-pub fn draw(drawn: &Drawn) -> Option<Diagram> {
+pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let scene = &drawn.scene;
     let camera = &scene.camera;
     let ledge = Ledge::with_ranges(camera.fov_y_radians, scene.aspect(), camera.near, camera.far, RANGES);

@@ -10,29 +10,8 @@ mod texels;
 mod transforms;
 mod volumes;
 
-use serde::Deserialize;
-
-use super::draw::Shown;
-
-/// Diagram of an entry.
-#[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
-#[serde(rename_all = "kebab-case")]
-pub enum DiagramKind {
-    /// A shadow map's texels as a stair against the surface [HSM, Figure 3].
-    Texels,
-    /// The chain of matrices, with the numbers of a point [HSM, Figures 7 and 8].
-    Transforms,
-    /// A cut through shadow volumes with their counts.
-    Volumes,
-    /// The light's frustum along its axis [HSM, Figure 1].
-    Frustum,
-    /// The same with the mirrored frustum behind the light.
-    BackProjection,
-    /// Equal steps on the screen, and on a surface [Segal 1992, Figures 1 and 2].
-    Perspective,
-    /// The two depth ranges of the ledge.
-    Ledge,
-}
+use super::draw::ShownEntry;
+use super::entry::DiagramKind;
 
 /// An SVG element, and a sentence below it.
 #[derive(Clone, Debug)]
@@ -42,7 +21,7 @@ pub struct Diagram {
 }
 
 /// Draws a diagram; empty: the scenes have nothing to show in it.
-pub fn draw(kind: DiagramKind, shown: &Shown) -> Vec<Diagram> {
+pub fn draw(kind: DiagramKind, shown: &ShownEntry) -> Vec<Diagram> {
     match kind {
         DiagramKind::Texels => [&shown.failure, &shown.cure].into_iter().filter_map(texels::draw).collect(),
         DiagramKind::Transforms => transforms::draw(&shown.cure).into_iter().collect(),

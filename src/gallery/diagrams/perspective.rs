@@ -6,13 +6,13 @@ use glam::{DVec2, DVec3, dvec2};
 use super::Diagram;
 use super::section::{Placement, Section};
 use super::svg::Svg;
-use crate::gallery::draw::Drawn;
+use crate::gallery::draw::DrawnSide;
 
 /// Steps on the screen.
 const STEPS: usize = 6;
 
 /// The diagram of a side: the upright plane through the eye along its view, and the first object's surface in it.
-pub fn draw(drawn: &Drawn) -> Option<Diagram> {
+pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let camera = &drawn.scene.camera;
     let section = Section::through(camera.eye, camera.target, camera.eye + DVec3::Y)?;
     let axis = section.flat(camera.target).normalize_or_zero();

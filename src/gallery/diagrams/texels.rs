@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, dvec2};
 
 use super::Diagram;
 use super::svg::{Svg, WIDTH};
-use crate::gallery::draw::Drawn;
+use crate::gallery::draw::DrawnSide;
 use crate::lights::{MapInfo, MapShape};
 
 /// Texels in the picture.
@@ -24,7 +24,7 @@ struct Row {
 
 impl Row {
     /// The row in the middle of the map of the first light, on the plane of the first object's upper side.
-    fn of(drawn: &Drawn) -> Option<Self> {
+    fn of(drawn: &DrawnSide) -> Option<Self> {
         let map = *drawn.plan.maps.iter().find(|map| map.light == 0)?;
         let frustum = &drawn.scene.lights.first()?.spot()?.frustum;
         let floor = drawn.scene.objects.first()?.world_from_model;
@@ -66,7 +66,7 @@ impl Row {
 }
 
 /// The diagram of a side; `None`: the first light has no map of one frustum, or does not see the first object's upper side.
-pub fn draw(drawn: &Drawn) -> Option<Diagram> {
+pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let row = Row::of(drawn)?;
     let ends = [0.0, SHOWN as f64].map(|index| row.place(row.depth(row.border(index)), row.border(index)).x);
     let scale = (WIDTH - 60.0) / (ends[1] - ends[0]).abs();

@@ -5,12 +5,12 @@ use glam::{DVec3, DVec4, dvec2};
 
 use super::Diagram;
 use super::svg::{Svg, WIDTH};
-use crate::gallery::draw::Drawn;
+use crate::gallery::draw::DrawnSide;
 use crate::lights::projector::Projector;
 use crate::math::texgen::scale_bias;
 
 /// The chain for the point that the light looks at; `None`: the first light is no spotlight.
-pub fn draw(drawn: &Drawn) -> Option<Diagram> {
+pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let scene = &drawn.scene;
     let frustum = &scene.lights.first()?.spot()?.frustum;
     let projector = Projector::of_frustum(frustum);

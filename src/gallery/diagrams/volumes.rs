@@ -5,7 +5,7 @@ use glam::{DVec2, DVec3, dvec2};
 use super::Diagram;
 use super::section::{Placement, Section};
 use super::svg::Svg;
-use crate::gallery::draw::Drawn;
+use crate::gallery::draw::DrawnSide;
 use crate::scene::{LightKind, Object};
 
 /// A caster as the plane cuts it.
@@ -60,7 +60,7 @@ impl From {
 }
 
 /// The plane through the light, the eye and the last caster; `None`: the scene has no light or caster to cut.
-pub fn draw(drawn: &Drawn) -> Option<Diagram> {
+pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let scene = &drawn.scene;
     let casters: Vec<&Object> = scene.objects.iter().filter(|object| object.casts_shadow).take(2).collect();
     let middle = |object: &Object| object.world_from_model.transform_point3(DVec3::ZERO);

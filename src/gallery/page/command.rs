@@ -1,11 +1,11 @@
 //! Commands that draw a picture of the gallery again, quoted for a shell.
 
-use crate::gallery::draw::{Side, quick_size};
-use crate::gallery::entry::Entry;
+use crate::gallery::draw::{EntrySide, quick_size};
+use crate::gallery::entry::GalleryEntry;
 
 /// The command that draws one side again; `full`: the scene's own size, which `--quick` halves.
-pub fn render_command(entry: &Entry, side: Side, quick: bool, full: [u32; 2]) -> String {
-    if entry.fault.is_some() && side == Side::Failure {
+pub fn render_command(entry: &GalleryEntry, side: EntrySide, quick: bool, full: [u32; 2]) -> String {
+    if entry.fault.is_some() && side == EntrySide::Failure {
         let quick = if quick { " --quick" } else { "" };
         return format!("glumbra gallery{quick} --entry {0} --picture failure -o {0}-failure.png", entry.id);
     }
@@ -15,7 +15,7 @@ pub fn render_command(entry: &Entry, side: Side, quick: bool, full: [u32; 2]) ->
         words.push(format!("--size {width}x{height}"));
     }
     words.extend(entry.overrides(side).iter().map(|set| format!("--set {}", quoted(set))));
-    words.push(format!("-o {}-{}.png", entry.id, if side == Side::Failure { "failure" } else { "cure" }));
+    words.push(format!("-o {}-{}.png", entry.id, if side == EntrySide::Failure { "failure" } else { "cure" }));
     words.join(" ")
 }
 

@@ -7,8 +7,8 @@ mod section;
 use std::fmt::Write;
 
 use super::Error;
-use super::draw::Shown;
-use super::entry::Entry;
+use super::draw::ShownEntry;
+use super::entry::GalleryEntry;
 use crate::judge::difference;
 use crate::report::show::html::tags::escape;
 
@@ -29,7 +29,7 @@ pub struct PageFacts {
 /// # Errors
 ///
 /// A picture that cannot be encoded.
-pub fn to_html(entries: &[(Entry, Shown)], facts: &PageFacts) -> Result<String, Error> {
+pub fn to_html(entries: &[(GalleryEntry, ShownEntry)], facts: &PageFacts) -> Result<String, Error> {
     let mut sections = String::new();
     for (index, (entry, shown)) in entries.iter().enumerate() {
         sections += &section::section(entry, shown, index + 1, facts)?;
@@ -72,7 +72,7 @@ fn intro(facts: &PageFacts) -> String {
 }
 
 /// Links to the entries.
-fn contents(entries: &[(Entry, Shown)]) -> String {
+fn contents(entries: &[(GalleryEntry, ShownEntry)]) -> String {
     let mut links = String::new();
     for (entry, _) in entries {
         let _ = writeln!(links, "<li><a href=\"#{}\">{}</a></li>", entry.id, escape(&entry.title));

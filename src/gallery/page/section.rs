@@ -9,14 +9,15 @@ use image::RgbImage;
 use super::PageFacts;
 use super::command::render_command;
 use crate::gallery::diagrams::{self, Diagram};
-use crate::gallery::draw::{self, Shown, Side};
-use crate::gallery::entry::{Entry, Measure};
+use crate::gallery::draw::{self, EntrySide, ShownEntry};
+use crate::gallery::entry::{EntryMeasure, GalleryEntry};
 use crate::gallery::{Error, scenes};
+use crate::judge::truth_pictures::LOUDER;
 use crate::report::numbers::plain;
 use crate::report::show::html::tags::escape;
 
 /// An entry's section, the `number`th of the page.
-pub fn section(entry: &Entry, shown: &Shown, number: usize, facts: &PageFacts) -> Result<String, Error> {
+pub fn section(entry: &GalleryEntry, shown: &ShownEntry, number: usize, facts: &PageFacts) -> Result<String, Error> {
     let says: String = entry.explanation.iter().map(|text| format!("<p>{}</p>\n", escape(text))).collect();
     let drawn: Vec<Diagram> = entry.diagram.map_or_else(Vec::new, |kind| diagrams::draw(kind, shown));
     let diagrams: String = drawn
@@ -39,9 +40,9 @@ pub fn section(entry: &Entry, shown: &Shown, number: usize, facts: &PageFacts) -
     ))
 }
 
-fn pictures(entry: &Entry, shown: &Shown) -> Result<String, Error> {
+fn pictures(entry: &GalleryEntry, shown: &ShownEntry) -> Result<String, Error> {
     let wrong = if entry.measure.is_of_colors() {
-        format!("What the failure has wrong: differences from the true colours, {} times as large", draw::LOUDER)
+        format!("What the failure has wrong: differences from the true colours, {} times as large", LOUDER)
     } else {
         String::from("What the failure has wrong: blue is false shadow, orange is leak")
     };
@@ -58,7 +59,7 @@ fn pictures(entry: &Entry, shown: &Shown) -> Result<String, Error> {
     Ok(format!("<div class=\"pictures\">\n{figures}</div>\n"))
 }
 
-fn figure(entry: &Entry, kind: &str, name: &str, says: &str, picture: &RgbImage) -> Result<String, Error> {
+fn figure(entry: &GalleryEntry, kind: &str, name: &str, says: &str, picture: &RgbImage) -> Result<String, Error> {
     let png = draw::to_png(picture).map_err(|reason| Error::Png { id: entry.id.clone(), reason })?;
     let (id, title, says) = (&entry.id, escape(&entry.title), escape(says));
     Ok(format!(
@@ -72,10 +73,10 @@ fn figure(entry: &Entry, kind: &str, name: &str, says: &str, picture: &RgbImage)
 }
 
 /// The table of numbers, and whether they are as far apart as the entry says.
-fn numbers(entry: &Entry, shown: &Shown) -> String {
-    let measures: &[Measure] = match entry.measure.is_of_colors() {
-        true => &[Measure::Colors, Measure::Rmse],
-        false => &[Measure::FalseShadow, Measure::Leak, Measure::Wrong],
+fn numbers(entry: &GalleryEntry, shown: &ShownEntry) -> String {
+    let measures: &[EntryMeasure] = match entry.measure.is_of_colors() {
+        true => &[EntryMeasure::Colors, EntryMeasure::Rmse],
+        false => &[EntryMeasure::FalseShadow, EntryMeasure::Leak, EntryMeasure::Wrong],
     };
     let cell = |value: Option<f64>, unit| value.map_or(String::from("–"), |value| format!("{} {unit}", plain(value)));
     let mut rows = String::new();
@@ -104,8 +105,8 @@ fn numbers(entry: &Entry, shown: &Shown) -> String {
     )
 }
 
-fn commands(entry: &Entry, shown: &Shown, facts: &PageFacts) -> String {
-    let full = entry.scene_of(Side::Cure, false).map_or(shown.cure.scene.image.size, |scene| scene.image.size);
+fn commands(entry: &GalleryEntry, shown: &ShownEntry, facts: &PageFacts) -> String {
+    let full = entry.scene_of(EntrySide::Cure, false).map_or(shown.cure.scene.image.size, |scene| scene.image.size);
     let failing = match entry.fault {
         Some(_) => "Draw the failure: no key of a scene makes this mistake, so the gallery makes it in the passes",
         None => "Draw the failure",
@@ -116,12 +117,12 @@ fn commands(entry: &Entry, shown: &Shown, facts: &PageFacts) -> String {
     };
     format!(
         "<dl class=\"commands\">\n{}{}</dl>\n",
-        line(Side::Failure, "failure", failing),
-        line(Side::Cure, "cure", "Draw the cure")
+        line(EntrySide::Failure, "failure", failing),
+        line(EntrySide::Cure, "cure", "Draw the cure")
     )
 }
 
-fn source(entry: &Entry) -> String {
+fn source(entry: &GalleryEntry) -> String {
     let figure = entry
         .figure
         .as_ref()
@@ -134,7 +135,7 @@ fn source(entry: &Entry) -> String {
 }
 
 /// The scene and the passes, folded up.
-fn more(entry: &Entry, shown: &Shown) -> String {
+fn more(entry: &GalleryEntry, shown: &ShownEntry) -> String {
     let scene = scenes::find(&entry.scene).map_or("", |scene| scene.text);
     let mut folded = format!(
         "<details><summary>The scene, to paste: {}</summary><pre>{}</pre></details>\n",
