@@ -77,7 +77,9 @@ pub fn run(arguments: &GalleryArgs, screen: Screen) -> Result<(), Error> {
     let mut renderer = Renderer::new(&context);
     screen.driver(context.as_ref());
     let facts = PageFacts { driver: context.describe().driver(), quick: arguments.quick };
-    let bar = screen.bar(entries.len() as u64, "{bar:40} {pos}/{len} entries, {eta} left  {msg}");
+    // The table of choices is of the whole page.
+    let choices = if arguments.entry.is_empty() { gallery::choices()? } else { Vec::new() };
+    let bar = screen.bar((entries.len() + choices.len()) as u64, "{bar:40} {pos}/{len} entries, {eta} left  {msg}");
     let mut shown = Vec::new();
     for entry in entries {
         bar.set_message(entry.id.clone());
@@ -88,9 +90,19 @@ pub fn run(arguments: &GalleryArgs, screen: Screen) -> Result<(), Error> {
         shown.push((entry, drawn?));
         bar.inc(1);
     }
+    let mut measured = Vec::new();
+    for choice in &choices {
+        bar.set_message(choice.id.clone());
+        let prices = gallery::measure_choice(choice, arguments.quick, &mut renderer);
+        if prices.is_err() {
+            bar.finish_and_clear();
+        }
+        measured.push(prices?);
+        bar.inc(1);
+    }
     bar.finish_and_clear();
     let path = folder.join("index.html");
-    output::write_sheets(&[], &[(path.clone(), gallery::to_html(&shown, &facts)?)])?;
+    output::write_sheets(&[], &[(path.clone(), gallery::to_html(&shown, &measured, &facts)?)])?;
     super::print(&format!("{}\n", path.display()))
 }
 

@@ -11,12 +11,12 @@ use crate::device::Pixels;
 use crate::frame::{Renderer, ShadeImage};
 use crate::judge::colors::{self, ColorErrors, DrawnColors};
 use crate::judge::difference::difference_picture;
-use crate::judge::metrics::{self, Band};
+use crate::judge::metrics::{self, Band, Errors};
 use crate::judge::truth_pictures::of_colors;
 use crate::output;
 use crate::plan::{Plan, Request, ViewRequest};
 use crate::png_file::{self, PngTexts};
-use crate::scene::Scene;
+use crate::scene::{Embedded, Scene};
 use crate::truth::{self, ColorTruth, Truth};
 use crate::views::View;
 
@@ -91,18 +91,20 @@ impl GalleryEntry {
         let embedded = scenes::find(&self.scene)
             .ok_or_else(|| Error::NoScene { id: self.id.clone(), scene: self.scene.clone() })?;
         let mut overrides = self.overrides(side);
-        let load = |overrides: &[String]| {
-            let loaded = crate::techniques::load_embedded(embedded, overrides);
-            loaded.map(|loaded| loaded.scene).map_err(|reason| Error::Scene { id: self.id.clone(), reason })
-        };
-        let scene = load(&overrides)?;
+        let scene = load(&self.id, embedded, &overrides)?;
         if !quick {
             return Ok(scene);
         }
         let [width, height] = quick_size(scene.image.size);
         overrides.insert(0, format!("image.size=[{width}, {height}]"));
-        load(&overrides)
+        load(&self.id, embedded, &overrides)
     }
+}
+
+/// Loads a scene for the entry of this id.
+pub fn load(id: &str, embedded: &Embedded, overrides: &[String]) -> Result<Scene, Error> {
+    let loaded = crate::techniques::load_embedded(embedded, overrides);
+    loaded.map(|loaded| loaded.scene).map_err(|reason| Error::Scene { id: id.to_owned(), reason })
 }
 
 /// Size of a quick picture.
@@ -167,26 +169,43 @@ fn draw(
             (Numbers { colors: Some(errors), ..Numbers::default() }, to_rgb(&of_colors(truth, &pixels, true, false)))
         }
         Compared::Shade(truth) => {
-            let judged = |reason| Error::Judge { id: entry.id.clone(), reason };
-            let mut shade = shade(&scene, entry.light, fault, renderer).map_err(failed)?;
-            // Shares are wanted, not where they lie: no band.
-            let band = Band { texels: 0.0, map_size: [1, 1] };
-            let facing = metrics::compare(truth, &shade, &band).map_err(judged)?.facing;
+            let (facing, difference) = facing_errors(&entry.id, &scene, (entry.light, truth), fault, renderer)?;
             let numbers = Numbers {
                 false_shadow: Some(facing.false_shadow_percent),
                 leak: Some(facing.leak_percent),
                 colors: None,
             };
-            // On the other surfaces shading leaves no light: no error is seen.
-            for (value, pixel) in shade.shade.iter_mut().zip(&truth.pixels) {
-                if pixel.hit.is_some_and(|hit| !hit.faces_light()) {
-                    *value = f32::NAN;
-                }
-            }
-            (numbers, difference_picture(truth, &shade).map_err(judged)?)
+            (numbers, difference)
         }
     };
     Ok((DrawnSide { scene, picture, plan, numbers }, difference))
+}
+
+/// Errors of a light's shade on surfaces that face the light, and a picture of them.
+///
+/// # Errors
+///
+/// A scene that cannot be planned or drawn.
+pub fn facing_errors(
+    id: &str,
+    scene: &Scene,
+    (light, truth): (usize, &Truth),
+    fault: Option<Fault>,
+    renderer: &mut Renderer,
+) -> Result<(Errors, RgbImage), Error> {
+    let judged = |reason| Error::Judge { id: id.to_owned(), reason };
+    let shade = shade(scene, light, fault, renderer);
+    let mut shade = shade.map_err(|reason| Error::Frame { id: id.to_owned(), reason })?;
+    // Shares are wanted, not where they lie: no band.
+    let band = Band { texels: 0.0, map_size: [1, 1] };
+    let facing = metrics::compare(truth, &shade, &band).map_err(judged)?.facing;
+    // On the other surfaces shading leaves no light: no error is seen.
+    for (value, pixel) in shade.shade.iter_mut().zip(&truth.pixels) {
+        if pixel.hit.is_some_and(|hit| !hit.faces_light()) {
+            *value = f32::NAN;
+        }
+    }
+    Ok((facing, difference_picture(truth, &shade).map_err(judged)?))
 }
 
 /// Makes a mistake in the passes; `None`: they have nothing that it changes.

@@ -5,6 +5,7 @@
 //! `entry.rs` reads the entries, `scenes.rs` has their scenes, `draw.rs` draws and measures, `faults.rs` has what no key can
 //! do, `choices.rs` compares techniques, `diagrams/` draws from a scene's numbers, `page/` writes HTML.
 
+mod choices;
 mod diagrams;
 mod draw;
 mod entry;
@@ -12,6 +13,7 @@ mod faults;
 mod page;
 mod scenes;
 
+pub use choices::{Choice, MeasuredChoice, choices, measure as measure_choice};
 pub use draw::{DrawnSide, EntrySide, ShownEntry, show};
 pub use entry::{EntryMeasure, GalleryEntry, chosen, entries};
 pub use faults::Fault;

@@ -3,7 +3,7 @@
 use crate::figures::embedded;
 use crate::scene::Embedded;
 
-static SCENES: [Embedded; 19] = [
+static SCENES: [Embedded; 20] = [
     embedded!("offset.toml"),
     embedded!("layers.toml"),
     embedded!("boxes.toml"),
@@ -22,6 +22,7 @@ static SCENES: [Embedded; 19] = [
     embedded!("workshop.toml"),
     embedded!("stretched.toml"),
     embedded!("gallery/", "fence.toml"),
+    embedded!("gallery/", "ring.toml"),
     embedded!("gallery/", "far_plane.toml"),
 ];
 

@@ -32,7 +32,7 @@ static GALLERY: LazyLock<(Vec<(GalleryEntry, ShownEntry)>, String)> = LazyLock::
             (entry, shown)
         })
         .collect();
-    let page = gallery::to_html(&shown, &PageFacts { driver: String::from("<driver>"), quick: true }).unwrap();
+    let page = gallery::to_html(&shown, &[], &PageFacts { driver: String::from("<driver>"), quick: true }).unwrap();
     (shown, page)
 });
 

@@ -59,19 +59,18 @@ impl From {
     }
 }
 
-/// The plane through the light, the eye and the last caster; `None`: the scene has no light or caster to cut.
+/// The upright plane through the light and the middle of two casters; `None`: the scene has no light or caster to cut.
 pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let scene = &drawn.scene;
     let casters: Vec<&Object> = scene.objects.iter().filter(|object| object.casts_shadow).take(2).collect();
     let middle = |object: &Object| object.world_from_model.transform_point3(DVec3::ZERO);
-    let eye = scene.camera.eye;
     let (position, direction) = match &scene.lights.first()?.kind {
         LightKind::Spot(spot) => (spot.frustum.position, None),
         LightKind::Point(point) => (point.position, None),
         LightKind::Directional { direction } => (middle(casters.first()?) - 3.0 * *direction, Some(*direction)),
     };
-    let section = Section::through(position, middle(casters.first()?), middle(casters.last()?) + 1e-3 * DVec3::X)
-        .or_else(|| Section::through(position, middle(casters.first()?), eye))?;
+    let between = casters.iter().map(|object| middle(object)).sum::<DVec3>() / casters.len() as f64;
+    let section = Section::through(position, between, position + DVec3::Y)?;
     let light = match direction {
         Some(way) => From::Direction((section.flat(position + way) - section.flat(position)).normalize_or_zero()),
         None => From::Point(section.flat(position)),

@@ -14,9 +14,15 @@ pub fn render_command(entry: &GalleryEntry, side: EntrySide, quick: bool, full: 
         let [width, height] = quick_size(full);
         words.push(format!("--size {width}x{height}"));
     }
-    words.extend(entry.overrides(side).iter().map(|set| format!("--set {}", quoted(set))));
+    words.push(quoted_sets(&entry.overrides(side)));
     words.push(format!("-o {}-{}.png", entry.id, if side == EntrySide::Failure { "failure" } else { "cure" }));
+    words.retain(|word| !word.is_empty());
     words.join(" ")
+}
+
+/// Overrides as options.
+pub fn quoted_sets(overrides: &[String]) -> String {
+    overrides.iter().map(|set| format!("--set {}", quoted(set))).collect::<Vec<_>>().join(" ")
 }
 
 /// A word as a shell reads it. The entries' own words have no single quotes.

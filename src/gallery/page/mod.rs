@@ -1,12 +1,14 @@
 //! The gallery as one page that needs no other file: readable without its script, which only moves between entries and
 //! enlarges pictures. Written as XML that is HTML, too, so that a test can parse it.
 
+mod choices;
 mod command;
 mod section;
 
 use std::fmt::Write;
 
 use super::Error;
+use super::choices::MeasuredChoice;
 use super::draw::ShownEntry;
 use super::entry::GalleryEntry;
 use crate::judge::difference;
@@ -29,7 +31,11 @@ pub struct PageFacts {
 /// # Errors
 ///
 /// A picture that cannot be encoded.
-pub fn to_html(entries: &[(GalleryEntry, ShownEntry)], facts: &PageFacts) -> Result<String, Error> {
+pub fn to_html(
+    entries: &[(GalleryEntry, ShownEntry)],
+    cases: &[MeasuredChoice],
+    facts: &PageFacts,
+) -> Result<String, Error> {
     let mut sections = String::new();
     for (index, (entry, shown)) in entries.iter().enumerate() {
         sections += &section::section(entry, shown, index + 1, facts)?;
@@ -38,10 +44,11 @@ pub fn to_html(entries: &[(GalleryEntry, ShownEntry)], facts: &PageFacts) -> Res
         "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\"/>\n\
          <meta name=\"viewport\" content=\"width=device-width, initial-scale=1\"/>\n\
          <title>Shadows that go wrong, and what cures them</title>\n<style>\n{STYLE}</style>\n</head>\n<body>\n\
-         <header>\n<h1>Shadows that go wrong, and what cures them</h1>\n{intro}</header>\n{nav}<main>\n{sections}</main>\n\
+         <header>\n<h1>Shadows that go wrong, and what cures them</h1>\n{intro}</header>\n{nav}<main>\n{sections}{choices}</main>\n\
          <script>\n{SCRIPT}</script>\n</body>\n</html>\n",
         intro = intro(facts),
-        nav = contents(entries),
+        nav = contents(entries, cases),
+        choices = choices::section(cases),
     ))
 }
 
@@ -72,10 +79,13 @@ fn intro(facts: &PageFacts) -> String {
 }
 
 /// Links to the entries.
-fn contents(entries: &[(GalleryEntry, ShownEntry)]) -> String {
+fn contents(entries: &[(GalleryEntry, ShownEntry)], cases: &[MeasuredChoice]) -> String {
     let mut links = String::new();
     for (entry, _) in entries {
         let _ = writeln!(links, "<li><a href=\"#{}\">{}</a></li>", entry.id, escape(&entry.title));
+    }
+    if !cases.is_empty() {
+        let _ = writeln!(links, "<li><a href=\"#{}\">{}</a></li>", choices::ID, choices::TITLE);
     }
     format!("<nav aria-label=\"Entries\">\n<ol>\n{links}</ol>\n</nav>\n")
 }

@@ -18,7 +18,7 @@ use crate::report::show::html::tags::escape;
 
 /// An entry's section, the `number`th of the page.
 pub fn section(entry: &GalleryEntry, shown: &ShownEntry, number: usize, facts: &PageFacts) -> Result<String, Error> {
-    let says: String = entry.explanation.iter().map(|text| format!("<p>{}</p>\n", escape(text))).collect();
+    let says: String = entry.explanation.iter().map(|text| format!("<p>{}</p>\n", with_code(text))).collect();
     let drawn: Vec<Diagram> = entry.diagram.map_or_else(Vec::new, |kind| diagrams::draw(kind, shown));
     let diagrams: String = drawn
         .iter()
@@ -38,6 +38,16 @@ pub fn section(entry: &GalleryEntry, shown: &ShownEntry, number: usize, facts: &
         source = source(entry),
         more = more(entry, shown),
     ))
+}
+
+/// Escaped text, with what stands between backquotes as code.
+fn with_code(text: &str) -> String {
+    let parts = text.split('`').enumerate();
+    let words = parts.map(|(index, part)| match index % 2 {
+        0 => escape(part),
+        _ => format!("<code>{}</code>", escape(part)),
+    });
+    words.collect()
 }
 
 fn pictures(entry: &GalleryEntry, shown: &ShownEntry) -> Result<String, Error> {
