@@ -17,7 +17,7 @@ pub struct Choice {
     /// Name in links.
     pub id: String,
     pub title: String,
-    /// What the document says of shadow maps in this case.
+    /// Use of shadow maps in this case, as the document has it.
     pub verdict: Verdict,
     /// A sentence or two.
     pub why: String,
@@ -67,7 +67,7 @@ pub struct MeasuredChoice {
     pub measures: [Price; 2],
 }
 
-/// What a technique gets wrong, and its price.
+/// A technique's wrong pixels, and its price.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Price {
     /// Percent of the surfaces that face the light.

@@ -1,13 +1,12 @@
 //! Mistakes that no key of a scene makes: edits of a plan's passes, which are data, before they are drawn. Changes of bump
 //! maps are those of figures. An entry with a fault cannot be drawn by `glumbra render`.
 
-use glam::{DMat4, DVec4, Vec4};
+use glam::{DVec4, Vec4};
 use serde::Deserialize;
 
 use crate::figures::SceneChange;
 use crate::pass::{Batch, Chunk, DrawPass, Filter, PassList, UniformValue, Work, glsl};
 use crate::plan::Plan;
-use crate::scene::Scene;
 
 /// A mistake.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -21,8 +20,6 @@ pub enum Fault {
     AveragedDepths,
     /// Shadow volumes without their near and far caps.
     Uncapped,
-    /// A finite far plane, at the camera's `far`, in place of the infinite one.
-    FiniteFarPlane,
     /// T and B turned around where the skin is mirrored.
     TangentsTurned,
     /// Smaller levels of a normal map made of unit length, without dimming.
@@ -40,7 +37,7 @@ impl Fault {
     }
 
     /// Edits the passes; returns how many batches or draws it changed.
-    pub fn apply(self, plan: &mut Plan, scene: &Scene) -> usize {
+    pub fn apply(self, plan: &mut Plan) -> usize {
         let eye_from_world = plan.matrices.eye_from_world;
         let passes = draw_passes(&mut plan.list);
         match self {
@@ -50,15 +47,6 @@ impl Fault {
             }),
             Self::AveragedDepths => each_batch(passes, average_depths),
             Self::Uncapped => passes.map(|pass| pass.batches.iter_mut().map(without_caps).sum::<usize>()).sum(),
-            Self::FiniteFarPlane => {
-                let finite = finite_from_infinite(scene.camera.near, scene.camera.far);
-                each_batch(passes, |batch| {
-                    for draw in &mut batch.draws {
-                        draw.clip_from_model = finite * draw.clip_from_model;
-                    }
-                    !batch.draws.is_empty()
-                })
-            }
             Self::TangentsTurned | Self::Undimmed => 0,
         }
     }
@@ -119,23 +107,9 @@ fn without_caps(batch: &mut Batch) -> usize {
     before - batch.draws.len()
 }
 
-/// `clip_finite_from_clip_infinite`: z = f / (f - n) z∞ + n / (f - n) w, of projections with one near plane n.
-fn finite_from_infinite(near: f64, far: f64) -> DMat4 {
-    let [z, w] = [far, near].map(|length| length / (far - near));
-    DMat4::from_cols(DVec4::X, DVec4::Y, DVec4::Z * z, DVec4::W + DVec4::Z * w)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::math::spaces::{infinite_perspective, perspective};
-
-    #[test]
-    fn an_infinite_projection_becomes_the_finite_one() {
-        let (fov, aspect, near, far) = (1.0, 1.3, 0.4, 9.0);
-        let made = finite_from_infinite(near, far) * infinite_perspective(fov, aspect, near);
-        assert!(made.abs_diff_eq(perspective(fov, aspect, near, far), 1e-12), "{made}");
-    }
 
     #[test]
     fn without_s_the_corners_of_the_map_are_at_minus_one_and_one() {

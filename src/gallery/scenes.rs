@@ -3,7 +3,7 @@
 use crate::figures::embedded;
 use crate::scene::Embedded;
 
-static SCENES: [Embedded; 20] = [
+static SCENES: [Embedded; 19] = [
     embedded!("offset.toml"),
     embedded!("layers.toml"),
     embedded!("boxes.toml"),
@@ -23,7 +23,6 @@ static SCENES: [Embedded; 20] = [
     embedded!("stretched.toml"),
     embedded!("gallery/", "fence.toml"),
     embedded!("gallery/", "ring.toml"),
-    embedded!("gallery/", "far_plane.toml"),
 ];
 
 /// The scene of this path in the repository; `None`: it is not compiled in.

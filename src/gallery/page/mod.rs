@@ -17,7 +17,7 @@ use crate::report::show::html::tags::escape;
 const STYLE: &str = include_str!("style.css");
 const SCRIPT: &str = include_str!("script.js");
 
-/// What the page says of itself.
+/// Facts that the page states of itself.
 #[derive(Clone, Debug)]
 pub struct PageFacts {
     /// Driver that drew the pictures.
