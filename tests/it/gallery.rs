@@ -12,7 +12,7 @@ use base64::engine::general_purpose::STANDARD;
 use glumbra::context::{self, ContextRequest};
 use glumbra::figures::FIGURES;
 use glumbra::frame::Renderer;
-use glumbra::gallery::{self, EntrySide, GalleryEntry, PageFacts, ShownEntry};
+use glumbra::gallery::{self, EntrySide, GalleryEntry, MeasuredChoice, PageFacts, ShownEntry};
 use glumbra::techniques::{LightShadow, TABLE};
 use quick_xml::Reader;
 use quick_xml::events::{BytesStart, Event};
@@ -21,7 +21,7 @@ const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
 
 /// Every entry in quick pictures, and the page.
-static GALLERY: LazyLock<(Vec<(GalleryEntry, ShownEntry)>, String)> = LazyLock::new(|| {
+static GALLERY: LazyLock<(Vec<(GalleryEntry, ShownEntry)>, String, Vec<MeasuredChoice>)> = LazyLock::new(|| {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
     let shown: Vec<(GalleryEntry, ShownEntry)> = gallery::chosen(&[])
@@ -32,8 +32,12 @@ static GALLERY: LazyLock<(Vec<(GalleryEntry, ShownEntry)>, String)> = LazyLock::
             (entry, shown)
         })
         .collect();
-    let page = gallery::to_html(&shown, &[], &PageFacts { driver: String::from("<driver>"), quick: true }).unwrap();
-    (shown, page)
+    let choices = gallery::choices().unwrap();
+    let measured = choices.iter().map(|choice| gallery::measure_choice(choice, true, &mut renderer).unwrap());
+    let measured: Vec<MeasuredChoice> = measured.collect();
+    let page =
+        gallery::to_html(&shown, &measured, &PageFacts { driver: String::from("<driver>"), quick: true }).unwrap();
+    (shown, page, measured)
 });
 
 /// An element of the page: its name, its attributes, and the text in it.
@@ -119,6 +123,24 @@ fn entries_cover_the_techniques_and_cite_what_documents_md_lists() {
 }
 
 #[test]
+fn choices_cite_what_documents_md_lists_and_say_what_is_measured() {
+    let documents = fs::read_to_string(Path::new(ROOT).join("data/documents.md")).unwrap();
+    for MeasuredChoice { choice, measures } in &GALLERY.2 {
+        let id = &choice.id;
+        assert!(documents.contains(&format!("**[{}]**", choice.document)), "{id}: no document [{}]", choice.document);
+        for section in choice.section.split("; ") {
+            assert!(documents.contains(section), "{id}: data/documents.md has no section {section:?}");
+        }
+        assert!(measures.iter().all(|price| price.frame_ms > 0.0), "{id}: {measures:?}");
+        // A volume is exact but where a texture cuts its caster out; a map never is.
+        let [map, volumes] = measures.map(|price| price.wrong_percent);
+        let cuts_out = id == "cut-out-shapes";
+        assert_eq!(volumes == 0.0, !cuts_out, "{id}: {volumes} % by volumes");
+        assert!(map > 0.0 && (map < volumes) == cuts_out, "{id}: {map} % by the map, {volumes} % by volumes");
+    }
+}
+
+#[test]
 fn every_failure_is_as_much_worse_than_its_cure_as_its_entry_says() {
     let wrong: Vec<String> = GALLERY
         .0
@@ -178,7 +200,7 @@ fn the_page_is_one_well_formed_file_that_loads_nothing() {
         assert!(element.name != "img" || !element.get("alt").is_empty(), "a picture without words");
     }
     let sections = page.iter().filter(|element| element.name == "section" && element.get("class") == "entry");
-    assert_eq!(sections.count(), GALLERY.0.len());
+    assert_eq!(sections.count(), GALLERY.0.len() + 1, "one of each entry, and the table of choices");
     assert!(GALLERY.1.contains("&lt;driver&gt;"), "the driver's name is not escaped");
 }
 

@@ -35,7 +35,7 @@ pub fn draw(drawn: &DrawnSide, mirrored: bool) -> Option<Diagram> {
     }
     let on_axis = crossings(&cuts, axis);
     let ahead = on_axis.iter().copied().filter(|depth| *depth > frustum.near).fold(f64::INFINITY, f64::min);
-    let behind = on_axis.iter().copied().filter(|depth| *depth < 0.0).fold(f64::NEG_INFINITY, f64::max);
+    let behind = on_axis.iter().copied().filter(|depth| *depth < 0.0).fold(f64::INFINITY, f64::min);
     svg.dot("lamp", at(DVec2::ZERO), 6.0);
     let under = dvec2(0.0, placement.height + 12.0);
     let says = if mirrored {
@@ -55,9 +55,9 @@ pub fn draw(drawn: &DrawnSide, mirrored: bool) -> Option<Diagram> {
         }
         let map = drawn.plan.maps.first();
         svg.text("words", under.with_x(12.0), "the light's frustum, from its near plane on");
-        let texel = map.map_or(0.0, |map| map.texel * ahead);
+        let texel = map.map_or(0.0, |map| map.texel);
         format!(
-            "A cut along the light's axis: a frustum of {:.0} degrees. Where its axis meets the scene, at {ahead:.1}, a texel of its map is {texel:.4} wide.",
+            "A cut along the light's axis: a frustum of {:.0} degrees. Its axis meets the scene at {ahead:.1}; a texel of its map is {texel:.4} wide for each unit of depth.",
             frustum.cone_radians.to_degrees()
         )
     };

@@ -10,6 +10,8 @@ mod texels;
 mod transforms;
 mod volumes;
 
+use std::fmt::Write;
+
 use super::draw::ShownEntry;
 use super::entry::DiagramKind;
 
@@ -26,11 +28,23 @@ pub fn draw(kind: DiagramKind, shown: &ShownEntry) -> Vec<Diagram> {
         DiagramKind::Texels => [&shown.failure, &shown.cure].into_iter().filter_map(texels::draw).collect(),
         DiagramKind::Transforms => transforms::draw(&shown.cure).into_iter().collect(),
         DiagramKind::Frustum => {
-            [&shown.failure, &shown.cure].into_iter().filter_map(|side| frustum::draw(side, false)).collect()
+            let fitted = shown.cure.plan.maps.first().map(|map| map.texel);
+            frustum::draw(&shown.failure, false).into_iter().map(|diagram| fitted_too(diagram, fitted)).collect()
         }
         DiagramKind::BackProjection => frustum::draw(&shown.cure, true).into_iter().collect(),
         DiagramKind::Perspective => perspective::draw(&shown.cure).into_iter().collect(),
         DiagramKind::Ledge => ledge::draw(&shown.cure).into_iter().collect(),
         DiagramKind::Volumes => volumes::draw(&shown.cure).into_iter().collect(),
     }
+}
+
+/// The diagram of a light's frustum, with the width of a texel where the cure's map is fitted.
+fn fitted_too(mut diagram: Diagram, texel: Option<f64>) -> Diagram {
+    if let Some(texel) = texel {
+        let _ = write!(
+            diagram.says,
+            " Fitted to what casts and is seen, a texel is {texel:.4} wide for each unit of depth."
+        );
+    }
+    diagram
 }

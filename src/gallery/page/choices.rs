@@ -45,7 +45,7 @@ fn row(measured: &MeasuredChoice) -> String {
         );
     }
     format!(
-        "<div class=\"case\" id=\"{}\"><h3>{}</h3><p>Shadow maps are <b class=\"{verdict}\">{}</b> here. {}</p>\n\
+        "<div class=\"case\" id=\"{}\"><h3>{}</h3><p>The document calls shadow maps <b class=\"{verdict}\">{}</b>. {}</p>\n\
          <table><thead><tr><th></th><th scope=\"col\">wrong</th><th scope=\"col\">a frame</th></tr></thead><tbody>\n{lines}\
          </tbody></table>\n<p class=\"source\">[{}] <cite>{}</cite></p></div>\n",
         choice.id,
