@@ -93,7 +93,7 @@
 //! | `flip` | FLIP, how different two pictures look to a viewer; compiles C++ |
 //! | `meshopt` | vertex-cache order, and `casters = "texel"`, which else draws all triangles and warns; compiles C++ |
 //! | `repack` | skins packed again |
-//! | `report` | reports, stress tests and figures, and their commands |
+//! | `report` | reports, stress tests, figures and the gallery, and their commands |
 //! | `window` | contexts of windows, hidden ones too; the viewer and the samples |
 
 // These panic if standard output or standard error is closed or full.
@@ -130,6 +130,9 @@ pub mod figures;
 #[allow(unsafe_code)]
 pub mod fixed_function;
 pub mod frame;
+#[cfg(feature = "report")]
+#[doc(hidden)]
+pub mod gallery;
 #[doc(hidden)]
 pub mod geometry;
 pub mod judge;

@@ -6,6 +6,7 @@ mod child_process;
 mod compare;
 mod context_args;
 mod figures;
+mod gallery;
 mod generate;
 mod info;
 mod init;
@@ -66,6 +67,7 @@ enum Command {
     Check(check::CheckArgs),
     Compare(compare::CompareArgs),
     Figures(figures::FiguresArgs),
+    Gallery(gallery::GalleryArgs),
     /// Prints the context, its driver and limits, and what was measured of its depth formats.
     Info(info::InfoArgs),
     Init(init::InitArgs),
@@ -107,6 +109,8 @@ pub enum Error {
     Truth(#[from] crate::truth::Error),
     #[error(transparent)]
     Difference(#[from] crate::judge::metrics::Error),
+    #[error(transparent)]
+    TruthPicture(#[from] crate::judge::truth_pictures::Error),
     #[cfg(feature = "window")]
     #[error(transparent)]
     Viewer(#[from] crate::viewer::Error),
@@ -114,6 +118,10 @@ pub enum Error {
     File(#[from] crate::output::Error),
     #[error(transparent)]
     Figures(#[from] crate::figures::Error),
+    #[error(transparent)]
+    Gallery(#[from] crate::gallery::Error),
+    #[error("--picture: one --entry is wanted, and {count} are given")]
+    OneEntry { count: usize },
     #[error(transparent)]
     Repack(#[from] repack::Error),
     #[error(transparent)]
@@ -220,6 +228,7 @@ pub fn run() -> ExitCode {
         Command::Check(arguments) => return check::run(&arguments, screen),
         Command::Compare(arguments) => return compare::run(&arguments),
         Command::Figures(arguments) => figures::run(&arguments, screen),
+        Command::Gallery(arguments) => gallery::run(&arguments, screen),
         Command::Info(arguments) => info::run(&arguments),
         Command::Init(arguments) => init::run(&arguments, screen),
         Command::Judge(arguments) => return judge::run(&arguments, screen),

@@ -54,7 +54,7 @@ fn watch(screen: Screen, is_read: &AtomicBool) {
             continue;
         }
         let Some(progress) = process::progress() else { continue };
-        let bar = bar.get_or_insert_with(|| screen.bar(0, TEMPLATE));
+        let bar = bar.get_or_insert_with(|| screen.bar(progress.total, TEMPLATE));
         bar.set_message(progress.what);
         bar.set_length(progress.total);
         bar.set_position(progress.done);

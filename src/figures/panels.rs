@@ -4,7 +4,8 @@ use super::{Measured, Panel, PanelStage, SceneChange};
 use crate::views::View;
 
 /// Pictures that the figures' scenes name. A static is in the program once, a constant wherever it is used.
-pub static PICTURES: [(&str, &[u8]); 12] = [
+pub static PICTURES: [(&str, &[u8]); 13] = [
+    ("../meshes/fence.png", include_bytes!("../../data/meshes/fence.png")),
     ("../textures/checker.png", include_bytes!("../../data/textures/checker.png")),
     ("../textures/floor.png", include_bytes!("../../data/textures/floor.png")),
     ("../textures/spot.png", include_bytes!("../../data/textures/spot.png")),

@@ -31,6 +31,7 @@ mod fit;
 mod fixed_function;
 mod floor;
 mod focus;
+mod gallery;
 mod generated;
 mod geometry_files;
 mod growth;

@@ -12,12 +12,14 @@ use code::{Arrow, Code, File, Module};
 
 /// Each module, and those that it may use directly; it may use what these may use, too.
 const ARROWS: &[(&str, &[&str])] = &[
-    ("cli", &["viewer", "keys", "figures", "stress", "report", "cases", "fixed_function", "conformance"]),
+    ("cli", &["viewer", "keys", "gallery", "figures", "stress", "report", "cases", "fixed_function", "conformance"]),
     // Names of other modules.
     ("prelude", &["frame", "truth", "output"]),
     ("viewer", &["frame", "output"]),
     // Shadow techniques read a part of the keys.
     ("keys", &["techniques"]),
+    // Its scenes are embedded as those of figures are, with the same pictures and models.
+    ("gallery", &["figures"]),
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
     ("stress", &["report"]),
