@@ -98,6 +98,8 @@ pub enum Error {
     Truth(#[from] crate::truth::Error),
     #[error(transparent)]
     Difference(#[from] crate::judge::metrics::Error),
+    #[error(transparent)]
+    TruthPicture(#[from] crate::judge::truth_pictures::Error),
     #[cfg(feature = "window")]
     #[error(transparent)]
     Viewer(#[from] crate::viewer::Error),

@@ -28,6 +28,7 @@
 //! `light.rs` judges a picture, `bound.rs` explains a map's wrong pixels, `near.rs`, `band.rs` and `edges.rs` know true shadow
 //! edges. `places.rs` says where a picture is wrong, `mistakes.rs` and `color_mistakes.rs` whether it only lies wrong.
 //! `metrics.rs` has a report's shares and distances of edges, `difference.rs` draws them. `colors.rs` compares colours.
+//! `truth_pictures.rs` makes the views `truth` and `difference`.
 //!
 //! ```
 //! use glumbra::judge::{Bound, Judge};
@@ -64,6 +65,8 @@ mod mistakes;
 mod near;
 mod pictured;
 mod places;
+#[doc(hidden)]
+pub mod truth_pictures;
 mod verdicts;
 
 pub use bound::{Bound, MOST_WRONG};
