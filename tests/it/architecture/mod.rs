@@ -15,7 +15,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("cli", &["viewer", "figures", "stress", "report", "cases", "fixed_function", "conformance"]),
     // Names of other modules.
     ("prelude", &["frame", "truth", "output"]),
-    ("viewer", &["frame", "output"]),
+    ("viewer", &["frame", "output", "judge"]),
     // The measures and the plots of both are a report's.
     ("figures", &["report"]),
     ("stress", &["report"]),
