@@ -19,6 +19,20 @@ pub struct Drawn {
     sheets: Vec<Sheet>,
 }
 
+/// As [`draw`]; what cannot be drawn is taken back while `show` knows how.
+///
+/// # Errors
+///
+/// As [`draw`].
+pub fn draw_or_go_back(show: &mut impl Show, renderer: &mut Renderer) -> Result<Drawn, Error> {
+    loop {
+        match draw(show, renderer) {
+            Err(error) if show.refuse(&error) => {}
+            drawn => return drawn,
+        }
+    }
+}
+
 /// Draws what `show` shows now, and gives it the facts.
 ///
 /// # Errors

@@ -1,5 +1,6 @@
 //! Sheets of text over a window's picture: rows of a name and what it means, in pages where they are too high.
 
+use super::keys::HEADING;
 use crate::output::canvas::{Canvas, Color, LINE, text_width, wrapped};
 
 /// Pixels between a window's edges and its sheets.
@@ -95,6 +96,16 @@ impl Words {
     }
 }
 
+/// The help's pages.
+pub fn help_pages(rows: Vec<(String, String)>, size: [u32; 2]) -> Vec<Canvas> {
+    Words { heading: HEADING.to_owned(), rows, warns: false }.pages(size, "h")
+}
+
+/// The page after one of `count`; after the last none, and after none the first.
+pub fn next_page(now: Option<usize>, count: usize) -> Option<usize> {
+    now.map_or(Some(0), |page| Some(page + 1).filter(|next| *next < count))
+}
+
 /// A legend: squares of colours and what they mean, for a window of this width.
 pub fn legend(colors: &[(Color, String)], window_width: u32) -> Canvas {
     const SQUARE: u32 = 10;
@@ -118,12 +129,11 @@ pub fn legend(colors: &[(Color, String)], window_width: u32) -> Canvas {
 
 #[cfg(test)]
 mod tests {
-    use super::super::keys::{HEADING, rows};
+    use super::super::keys::rows;
     use super::*;
 
     fn pages(size: [u32; 2]) -> Vec<[u32; 2]> {
-        let words = Words { heading: HEADING.to_owned(), rows: rows(&["a", "b"]), warns: false };
-        words.pages(size, "h").iter().map(Canvas::size).collect()
+        help_pages(rows(&["a", "b"]), size).iter().map(Canvas::size).collect()
     }
 
     #[test]

@@ -5,8 +5,7 @@ use std::time::Duration;
 use glam::DVec2;
 
 use super::Error;
-use super::keys::HEADING;
-use super::sheet::{EDGE, Sheet, Words};
+use super::sheet::{EDGE, Sheet, help_pages};
 use crate::frame::Renderer;
 use crate::judge::truth_pictures::TruthView;
 use crate::lights::LeftOut;
@@ -66,8 +65,8 @@ pub trait Show {
     /// Moves nearer by steps of the wheel, or farther by less than 0.
     fn dolly(&mut self, steps: f64);
 
-    /// Tests whether the window shows the help.
-    fn helps(&self) -> bool;
+    /// The page of the help that the window shows; `None`: none.
+    fn help_page(&self) -> Option<usize>;
 
     /// Each key's and gesture's name, and what it does.
     fn help(&self) -> Vec<(String, String)>;
@@ -100,12 +99,10 @@ pub trait Show {
 
     /// Sheets over the picture, the first below all.
     fn sheets(&self) -> Vec<Sheet> {
-        if !self.helps() {
-            return Vec::new();
-        }
-        let words = Words { heading: HEADING.to_owned(), rows: self.help(), warns: false };
-        let pages = words.pages([self.size()[0], u32::MAX], "h");
-        pages.into_iter().map(|canvas| Sheet { canvas, place: [EDGE; 2] }).collect()
+        let Some(page) = self.help_page() else { return Vec::new() };
+        let mut pages = help_pages(self.help(), self.size());
+        let canvas = pages.swap_remove(page.min(pages.len() - 1));
+        vec![Sheet { canvas, place: [EDGE; 2] }]
     }
 
     /// Goes back to what could be drawn, after an error. False if it cannot: the window closes.

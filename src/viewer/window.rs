@@ -122,10 +122,7 @@ impl<S: Show> App<S> {
         let Some(Live { renderer, context }) = &mut self.live else { return Ok(()) };
         let size = context.size();
         self.state.resize(size);
-        let drawn = match picture::draw(&mut self.state, renderer) {
-            Err(error) if self.state.refuse(&error) => picture::draw(&mut self.state, renderer)?,
-            drawn => drawn?,
-        };
+        let drawn = picture::draw_or_go_back(&mut self.state, renderer)?;
         self.frames += 1;
         drawn.present(renderer, size)?;
         if self.shown.capture && self.captured.is_none() {

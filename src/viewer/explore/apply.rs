@@ -10,7 +10,8 @@ use super::{Explorer, save, sources};
 use crate::frame::Renderer;
 use crate::judge::truth_pictures::TruthView;
 use crate::plan::Request;
-use crate::scene::{self, Scene};
+use crate::scene::{self, Entry, Origin, Scene, Value};
+use crate::techniques;
 use crate::viewer::Error;
 use crate::viewer::sheet::Sheet;
 use crate::viewer::show::{Button, Facts, Reaction, Show};
@@ -19,7 +20,7 @@ impl Explorer {
     /// Applies a command.
     pub fn apply(&mut self, command: ExploreCommand) -> Reaction {
         use ExploreCommand as C;
-        self.said = None;
+        (self.said, self.error) = (None, None);
         match command {
             C::Help => self.looks.page(Paged::Help, self.pages(Paged::Help).len()),
             C::LeftOut => self.looks.page(Paged::LeftOut, self.pages(Paged::LeftOut).len()),
@@ -37,7 +38,10 @@ impl Explorer {
             C::NextCamera => self.next_camera(),
             C::ResetCamera => self.scene.camera = self.base.camera.clone(),
             C::Reset => self.scene = self.base.clone(),
-            C::NextLight => self.light = (self.light + 1) % self.scene.lights.len().max(1),
+            C::NextLight => {
+                self.light = (self.light + 1) % self.scene.lights.len().max(1);
+                self.looks.has_failed = false;
+            }
             C::NextTechnique => self.next_technique(),
             C::Bias(step) => self.step_offset("units", step),
             C::Slope(step) => self.step_offset("factor", step),
@@ -46,6 +50,7 @@ impl Explorer {
             C::View(by) => self.looks.step(by),
             C::Picture => {
                 self.looks.look = if self.looks.look.is_some() { None } else { Some(self.looks.last) };
+                self.looks.has_failed = false;
                 self.looks.pass = None;
             }
             C::Beside => self.looks.is_beside = !self.looks.is_beside,
@@ -53,6 +58,26 @@ impl Explorer {
             C::Times => self.looks.times = !self.looks.times,
         }
         Reaction::Redraw
+    }
+
+    /// The technique that the chosen light has for the view that is shown, if its own does not make that.
+    fn technique_of_look(&self) -> Option<&'static str> {
+        self.looks.now()?.technique(&self.scene.lights.get(self.light)?.shadow)
+    }
+
+    /// The scene, with the technique that the view needs.
+    fn scene_of_look(&self) -> Scene {
+        let mut scene = self.scene.clone();
+        if let Some(technique) = self.technique_of_look() {
+            let light = &mut scene.lights[self.light];
+            let mut written = light.shadow.written().clone();
+            written.set("technique", Entry { value: Value::String(technique.to_owned()), origin: Origin::BuiltIn });
+            // If it does not serve the light, the plan says why there is no view.
+            if let Ok(shadow) = techniques::read(written, &light.kind, &scene.objects) {
+                light.shadow = shadow;
+            }
+        }
+        scene
     }
 
     fn next_camera(&mut self) {
@@ -89,12 +114,12 @@ impl Explorer {
         };
         match loaded.and_then(|loaded| Ok((loaded.scene, self.sources.cameras()?))) {
             Ok((scene, cameras)) => self.take(scene, cameras, name),
-            Err(error) => self.error = Some(told(&error)),
+            Err(error) => self.file_error = Some(told(&error)),
         }
     }
 
     fn take(&mut self, scene: Scene, cameras: Vec<String>, name: Option<String>) {
-        self.error = None;
+        self.file_error = None;
         self.said = Some(String::from("read again"));
         let found = cameras.iter().position(|known| Some(known) == name.as_ref());
         self.camera = found.unwrap_or_else(|| self.sources.first_camera(&cameras));
@@ -151,7 +176,7 @@ impl Show for Explorer {
     }
 
     fn frame(&self) -> (Scene, Request) {
-        let mut scene = self.scene.clone();
+        let mut scene = self.scene_of_look();
         scene.image.size = self.size;
         let views = self.looks.now().and_then(|look| look.drawn(self.light)).into_iter().collect();
         (scene, Request { views, ..Request::default() })
@@ -159,7 +184,10 @@ impl Show for Explorer {
 
     fn status(&self) -> String {
         let what = match (self.looks.now(), self.looks.pass.and_then(|place| self.facts.passes.get(place))) {
-            (Some(look), _) => look.name().to_owned(),
+            (Some(look), _) => match self.technique_of_look() {
+                Some(technique) => format!("{} (by {technique})", look.name()),
+                None => look.name().to_owned(),
+            },
             (None, Some((number, _))) => format!("pass {number}"),
             (None, None) => String::from("picture"),
         };
@@ -173,7 +201,7 @@ impl Show for Explorer {
             (false, true) => "mouse: flight",
             (false, false) => "mouse: camera",
         };
-        let error = self.error.as_deref().map(|error| format!("error: {error}"));
+        let error = self.error().map(|error| format!("error: {error}"));
         let parts = [Some(what), camera, light, Some(held.to_owned()), self.said.clone(), error];
         let parts = parts.into_iter().flatten().chain([String::from("h: help")]);
         parts.collect::<Vec<_>>().join(" | ")
@@ -200,8 +228,8 @@ impl Show for Explorer {
         }
     }
 
-    fn helps(&self) -> bool {
-        matches!(self.looks.paged, Some((Paged::Help, _)))
+    fn help_page(&self) -> Option<usize> {
+        self.looks.paged.filter(|(sheet, _)| *sheet == Paged::Help).map(|(_, page)| page)
     }
 
     fn help(&self) -> Vec<(String, String)> {
@@ -224,6 +252,7 @@ impl Show for Explorer {
     fn note(&mut self, facts: Facts) {
         self.facts = facts;
         self.good = (self.scene.clone(), self.looks.clone());
+        (self.good_light, self.has_gone_back) = (self.light, false);
     }
 
     fn sheets(&self) -> Vec<Sheet> {
@@ -232,9 +261,16 @@ impl Show for Explorer {
 
     fn refuse(&mut self, error: &Error) -> bool {
         self.error = Some(error.to_string());
-        (self.scene, self.looks) = self.good.clone();
-        self.looks.look = None;
-        true
+        let is_look = self.looks.look != self.good.1.look || self.light != self.good_light;
+        if self.looks.now().is_some() && (is_look || self.has_gone_back) {
+            self.looks.has_failed = true;
+            return true;
+        }
+        let can_go_back = !self.has_gone_back;
+        self.scene = self.good.0.clone();
+        self.looks.pass = None;
+        self.has_gone_back = true;
+        can_go_back
     }
 
     fn save(&mut self, renderer: &mut Renderer) {

@@ -9,7 +9,7 @@ use super::{Explorer, sources};
 use crate::frame::Renderer;
 use crate::output::canvas::Canvas;
 use crate::viewer::Error;
-use crate::viewer::picture::{self, Drawn};
+use crate::viewer::picture;
 use crate::viewer::show::{Button, Reaction, Show};
 
 /// Outcome of a script.
@@ -35,7 +35,7 @@ pub fn run_steps(
     let mut frames = 0;
     let mut draw = |state: &mut Explorer, renderer: &mut Renderer| {
         frames += 1;
-        draw(state, renderer)
+        picture::draw_or_go_back(state, renderer)
     };
     let mut drawn = draw(state, renderer)?;
     say(&state.status());
@@ -86,17 +86,10 @@ pub fn turn(state: &mut Explorer, count: u32, renderer: &mut Renderer) -> Result
     for _ in 0..count {
         let start = Instant::now();
         state.drag(Button::Left, step);
-        draw(state, renderer)?;
+        picture::draw_or_go_back(state, renderer)?;
         times.push(start.elapsed().as_secs_f64() * 1e3);
     }
     Ok(times)
-}
-
-fn draw(state: &mut Explorer, renderer: &mut Renderer) -> Result<Drawn, Error> {
-    match picture::draw(state, renderer) {
-        Err(error) if state.refuse(&error) => picture::draw(state, renderer),
-        drawn => drawn,
-    }
 }
 
 /// Waits until a file has changed, so many seconds at most.

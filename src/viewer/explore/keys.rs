@@ -1,5 +1,6 @@
 //! Keys of `glumbra view` and their commands: one table for the window, for scripts and for the help.
 
+use super::shown::LOOKS;
 use crate::viewer::show::Button;
 
 /// Command of a key.
@@ -44,43 +45,39 @@ pub enum ExploreCommand {
 
 use ExploreCommand as C;
 
-/// Keys by the names that the window gives them, what they do, and a line of help.
+/// Keys by the names that the window gives them, what they do, and a line of help; empty: that of the next row.
 const KEYS: &[(&[&str], ExploreCommand, &str)] = &[
-    (&["h"], C::Help, "this help, page by page"),
+    (&["h"], C::Help, "this help, page by page, and then none"),
     (&["q", "Esc"], C::Quit, "quit"),
-    (&["p", "."], C::Pass(1), "the picture after the next pass; after the last one the whole"),
-    (&["o", ","], C::Pass(-1), "the picture after the pass before"),
-    (
-        &["v"],
-        C::View(1),
-        "next view: shadow map, shadow volumes, silhouettes, stencil count, texels per pixel, truth, difference",
-    ),
-    (&["b"], C::View(-1), "the view before"),
+    (&["s"], C::Save, "save picture and scene as they now stand (in flight: back)"),
+    (&["v"], C::View(1), ""),
+    (&["b"], C::View(-1), "next view, view before; the views are named below"),
     (&["space"], C::Picture, "the picture alone, or the view again"),
     (&["n"], C::Beside, "the view beside the picture, or in its place"),
-    (&["i"], C::LeftOut, "what the plan leaves out and warns of, page by page"),
+    (&["o", ","], C::Pass(-1), ""),
+    (&["p", "."], C::Pass(1), "the picture after the pass before, after the next pass"),
+    (&["i"], C::LeftOut, "what is left out of the frame, and warnings, by pages"),
     (&["f"], C::Times, "times of the frame, or not"),
     (&["l"], C::NextLight, "choose the next light"),
     (&["m"], C::Hold, "the mouse holds the chosen light, or the camera"),
     (&["t"], C::NextTechnique, "the light's next shadow technique"),
-    (&["1"], C::Bias(-1.0), "its bias (polygon offset's units) down"),
-    (&["2"], C::Bias(1.0), "its bias up"),
-    (&["3"], C::Slope(-0.5), "its slope offset (polygon offset's factor) down"),
-    (&["4"], C::Slope(0.5), "its slope offset up"),
-    (&["5"], C::MapSize(-1), "its map half as large"),
-    (&["6"], C::MapSize(1), "its map twice as large"),
+    (&["1"], C::Bias(-1.0), ""),
+    (&["2"], C::Bias(1.0), "its bias down, up: the polygon offset's units"),
+    (&["3"], C::Slope(-0.5), ""),
+    (&["4"], C::Slope(0.5), "its slope offset down, up: the polygon offset's factor"),
+    (&["5"], C::MapSize(-1), ""),
+    (&["6"], C::MapSize(1), "its shadow map half, twice as large"),
     (&["k", "7"], C::NextKernel, "its next filter: nearest, linear, 3x3, 5x5, 7x7"),
     (&["c"], C::NextCamera, "the scene's next camera"),
     (&["Home"], C::ResetCamera, "the camera as the file has it"),
     (&["r"], C::Reset, "camera, lights and shadows as the files have them"),
-    (&["x"], C::Fly, "fly: a drag looks around, w a s d move too; or not"),
-    (&["Up"], C::Walk([0.0, 0.0, 1.0]), "forwards"),
-    (&["Down"], C::Walk([0.0, 0.0, -1.0]), "backwards"),
-    (&["Left"], C::Walk([-1.0, 0.0, 0.0]), "to the left"),
-    (&["Right"], C::Walk([1.0, 0.0, 0.0]), "to the right"),
-    (&["PageUp"], C::Walk([0.0, 1.0, 0.0]), "upwards"),
-    (&["PageDown"], C::Walk([0.0, -1.0, 0.0]), "downwards"),
-    (&["s"], C::Save, "save the picture, and the scene as it now stands; while flying: backwards"),
+    (&["x"], C::Fly, "fly, or not: a drag looks around, w a s d move"),
+    (&["Up"], C::Walk([0.0, 0.0, 1.0]), ""),
+    (&["Down"], C::Walk([0.0, 0.0, -1.0]), "move the camera forwards, backwards"),
+    (&["Left"], C::Walk([-1.0, 0.0, 0.0]), ""),
+    (&["Right"], C::Walk([1.0, 0.0, 0.0]), "to the left, to the right"),
+    (&["PageUp"], C::Walk([0.0, 1.0, 0.0]), ""),
+    (&["PageDown"], C::Walk([0.0, -1.0, 0.0]), "upwards, downwards"),
 ];
 
 /// Keys that have another command while flying.
@@ -91,12 +88,12 @@ const FLYING: &[(&str, ExploreCommand)] = &[
     ("d", C::Walk([1.0, 0.0, 0.0])),
 ];
 
-/// Actions of the mouse; their names in scripts; and what they do.
+/// Actions of the mouse, and what they do.
 const MOUSE: [(&str, &str); 4] = [
-    ("left drag", "orbits the camera, or moves the light on a sphere about its target"),
-    ("right drag", "moves the camera across, or the light on a plane that faces the camera"),
-    ("middle drag", "moves the light on its sphere, whatever the mouse holds"),
-    ("wheel", "what the mouse holds nearer, or farther"),
+    ("left drag", "orbit the camera; move the held light about its target"),
+    ("right drag", "move the camera across; the held light across the view"),
+    ("middle drag", "move the chosen light about its target"),
+    ("wheel", "what the mouse holds nearer, farther"),
 ];
 
 /// Drags of a script.
@@ -115,10 +112,22 @@ pub fn is_known(name: &str) -> bool {
     command(name, true).is_some()
 }
 
-/// Each key's and gesture's name, and what it does.
+/// Each key's and gesture's name, and what it does; last the views.
 pub fn explore_help() -> Vec<(String, String)> {
-    let keys = KEYS.iter().map(|(names, _, what)| (names.join(" "), (*what).to_owned()));
-    keys.chain(MOUSE.map(|(name, what)| (name.to_owned(), what.to_owned()))).collect()
+    let mut rows = Vec::new();
+    let mut before = String::new();
+    for (names, _, what) in KEYS {
+        let names = format!("{before}{}", names.join(" "));
+        if what.is_empty() {
+            before = format!("{names} ");
+        } else {
+            rows.push((names, (*what).to_owned()));
+            before.clear();
+        }
+    }
+    rows.extend(MOUSE.map(|(name, what)| (name.to_owned(), what.to_owned())));
+    rows.extend(LOOKS.iter().map(|look| (look.name().to_owned(), look.in_words().to_owned())));
+    rows
 }
 
 #[cfg(test)]

@@ -32,6 +32,9 @@ pub struct Explorer {
     scene: Scene,
     /// What could be drawn last, to go back to.
     good: (Scene, Looks),
+    good_light: usize,
+    /// True after going back, until something is drawn.
+    has_gone_back: bool,
     looks: Looks,
     /// Names of the scene's cameras; empty if they have none.
     cameras: Vec<String>,
@@ -47,8 +50,10 @@ pub struct Explorer {
     facts: Facts,
     /// What the last command did, if that is not to be seen.
     said: Option<String>,
-    /// Error in the scene's files, or of a change that could not be drawn.
+    /// Error of a change that could not be drawn.
     error: Option<String>,
+    /// Error in the scene's files, until they are read without.
+    file_error: Option<String>,
     folder: PathBuf,
 }
 
@@ -65,6 +70,8 @@ impl Explorer {
             sources,
             base: scene.clone(),
             good: (scene.clone(), Looks::default()),
+            good_light: 0,
+            has_gone_back: false,
             size: scene.image.size,
             scene,
             looks: Looks::default(),
@@ -76,6 +83,7 @@ impl Explorer {
             facts: Facts::default(),
             said: None,
             error: None,
+            file_error: None,
             folder,
         })
     }
@@ -92,6 +100,6 @@ impl Explorer {
 
     /// The error that is shown, if there is one.
     pub fn error(&self) -> Option<&str> {
-        self.error.as_deref()
+        self.error.as_deref().or(self.file_error.as_deref())
     }
 }

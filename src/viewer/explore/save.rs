@@ -63,9 +63,10 @@ impl Explorer {
     /// The first name for a picture that neither a picture nor a scene has.
     fn next_name(&self) -> Result<PathBuf, Error> {
         let stem = self.sources.path().file_stem().unwrap_or_default().to_string_lossy().into_owned();
-        let names = (1..=MOST_FILES).map(|number| self.folder.join(format!("{stem}-view-{number}.png")));
+        let folder = self.folder.strip_prefix(".").unwrap_or(&self.folder);
+        let mut names = (1..=MOST_FILES).map(|number| folder.join(format!("{stem}-view-{number}.png")));
         let is_free = |path: &PathBuf| !path.exists() && !path.with_extension("toml").exists();
-        names.into_iter().find(is_free).ok_or_else(|| Error::Full { folder: self.folder.clone() })
+        names.find(is_free).ok_or_else(|| Error::Full { folder: self.folder.clone() })
     }
 }
 

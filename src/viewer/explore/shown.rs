@@ -2,7 +2,14 @@
 
 use crate::judge::truth_pictures::TruthView;
 use crate::plan::ViewRequest;
+use crate::scene::Shadow;
+use crate::techniques::LightShadow;
+use crate::viewer::sheet::next_page;
 use crate::views::View;
+
+/// Techniques that views need: one with a map, and one that counts.
+const MAP: &str = "shadow-map";
+const VOLUMES: &str = "shadow-volume";
 
 /// A picture in place of the scene's, or beside it.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -37,6 +44,8 @@ pub(super) struct Looks {
     pub look: Option<usize>,
     /// The look that was shown last.
     pub last: usize,
+    /// True if the look cannot be drawn: the picture is shown.
+    pub has_failed: bool,
     pub is_beside: bool,
     /// The pass after which the picture is shown, by its place among those of the picture.
     pub pass: Option<usize>,
@@ -47,7 +56,7 @@ pub(super) struct Looks {
 
 impl Looks {
     pub fn now(&self) -> Option<Look> {
-        self.look.and_then(|place| LOOKS.get(place)).copied()
+        self.look.filter(|_| !self.has_failed).and_then(|place| LOOKS.get(place)).copied()
     }
 
     /// Steps through the looks; before the first and after the last comes the picture alone.
@@ -56,15 +65,14 @@ impl Looks {
         let place = self.look.map_or(0, |place| place as i32 + 1);
         self.look = usize::try_from((place + by).rem_euclid(count) - 1).ok();
         self.last = self.look.unwrap_or(self.last);
+        self.has_failed = false;
         self.pass = None;
     }
 
     /// The next page of a sheet that has so many; after the last none.
     pub fn page(&mut self, sheet: Paged, count: usize) {
-        self.paged = match self.paged {
-            Some((shown, page)) if shown == sheet => (page + 1 < count).then_some((sheet, page + 1)),
-            _ => Some((sheet, 0)),
-        };
+        let now = self.paged.filter(|(shown, _)| *shown == sheet).map(|(_, page)| page);
+        self.paged = next_page(now, count).map(|page| (sheet, page));
     }
 }
 
@@ -74,6 +82,32 @@ impl Look {
             Self::Drawn(view) => view.name(),
             Self::Truth => "truth",
             Self::Difference => "difference",
+        }
+    }
+
+    /// What it shows.
+    pub fn in_words(self) -> &'static str {
+        match self {
+            Self::Drawn(View::LightDepth) => "the light's shadow map",
+            Self::Drawn(View::Volume) => "the shadow volumes: outsides orange, insides blue",
+            Self::Drawn(View::Silhouette) => "the casters' silhouettes, as the light sees them",
+            Self::Drawn(View::StencilColors) => "the count in the stencil buffer",
+            Self::Drawn(View::TexelsPerPixel) => "texels of the map that a pixel's side shows",
+            Self::Drawn(_) => "",
+            Self::Truth => "what is lit and shadowed, by rays",
+            Self::Difference => "the picture's errors against that",
+        }
+    }
+
+    /// The technique that a light has for this view, if its own makes none of what is shown.
+    pub fn technique(self, shadow: &Shadow) -> Option<&'static str> {
+        let read = LightShadow::of(shadow)?;
+        let map = read.map();
+        let counts = read.technique.name() == VOLUMES || map.is_some_and(|map| map.counts_by().is_some());
+        match self {
+            Self::Drawn(view) if view.needs_map() && map.is_none() => Some(MAP),
+            Self::Drawn(view) if view.needs_count() && !counts => Some(VOLUMES),
+            _ => None,
         }
     }
 
