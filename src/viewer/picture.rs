@@ -7,7 +7,7 @@ use super::Error;
 use super::sheet::{EDGE, Sheet, legend};
 use super::show::{Facts, Show};
 use crate::frame::Renderer;
-use crate::output::canvas::Canvas;
+use crate::output::canvas::{Canvas, Color};
 use crate::output::to_canvas;
 use crate::plan::{Plan, Request};
 
@@ -72,6 +72,8 @@ pub fn draw(show: &mut impl Show, renderer: &mut Renderer) -> Result<Drawn, Erro
         let picture = to_canvas(&picture, None);
         cover = Some(match view {
             Some(view) if show.is_beside() => beside(&picture, &view, show.size()),
+            // A map has a size of its own.
+            Some(view) if view.size() != show.size() => filled(&view, show.size()),
             Some(view) => view,
             None => picture,
         });
@@ -134,15 +136,28 @@ fn milliseconds(start: Instant) -> f64 {
     start.elapsed().as_secs_f64() * 1e3
 }
 
+/// Colour of what no picture covers.
+const BEHIND: Color = [12, 12, 14];
+
+/// A picture in the middle of a window, as large as that allows.
+fn filled(picture: &Canvas, size: [u32; 2]) -> Canvas {
+    let mut canvas = Canvas::new(size, BEHIND);
+    paste_fitted(&mut canvas, picture, 0, size);
+    canvas
+}
+
 /// Two pictures side by side, each as large as half of the window allows.
 fn beside(left: &Canvas, right: &Canvas, size: [u32; 2]) -> Canvas {
-    const BEHIND: [u8; 3] = [12, 12, 14];
     let half = [(size[0] / 2).max(1), size[1]];
     let mut canvas = Canvas::new(size, BEHIND);
-    for (picture, start) in [(left, 0), (right, size[0] / 2)] {
-        let fitted = picture.fitted(half);
-        let room = [0, 1].map(|axis| (half[axis] - fitted.size()[axis].min(half[axis])) / 2);
-        canvas.paste([start + room[0], room[1]], &fitted);
-    }
+    paste_fitted(&mut canvas, left, 0, half);
+    paste_fitted(&mut canvas, right, size[0] / 2, half);
     canvas
+}
+
+/// Pastes a picture into the middle of a part of the canvas, from `start` to the right.
+fn paste_fitted(canvas: &mut Canvas, picture: &Canvas, start: u32, room: [u32; 2]) {
+    let fitted = picture.fitted(room);
+    let edges = [0, 1].map(|axis| room[axis].saturating_sub(fitted.size()[axis]) / 2);
+    canvas.paste([start + edges[0], edges[1]], &fitted);
 }
