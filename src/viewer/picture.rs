@@ -12,7 +12,7 @@ use crate::output::to_canvas;
 use crate::plan::{Plan, Request};
 
 /// A frame that was drawn.
-pub struct Drawn {
+pub struct DrawnFrame {
     plan: Plan,
     /// What covers the window in place of the plan's picture.
     cover: Option<Canvas>,
@@ -24,7 +24,7 @@ pub struct Drawn {
 /// # Errors
 ///
 /// As [`draw`].
-pub fn draw_or_go_back(show: &mut impl Show, renderer: &mut Renderer) -> Result<Drawn, Error> {
+pub fn draw_or_go_back(show: &mut impl Show, renderer: &mut Renderer) -> Result<DrawnFrame, Error> {
     loop {
         match draw(show, renderer) {
             Err(error) if show.refuse(&error) => {}
@@ -38,7 +38,7 @@ pub fn draw_or_go_back(show: &mut impl Show, renderer: &mut Renderer) -> Result<
 /// # Errors
 ///
 /// Every error of a frame, and of the ray tracer.
-pub fn draw(show: &mut impl Show, renderer: &mut Renderer) -> Result<Drawn, Error> {
+pub fn draw(show: &mut impl Show, renderer: &mut Renderer) -> Result<DrawnFrame, Error> {
     let (scene, mut request) = show.frame();
     let traced = show.traced();
     if let Some(traced) = traced {
@@ -78,10 +78,10 @@ pub fn draw(show: &mut impl Show, renderer: &mut Renderer) -> Result<Drawn, Erro
             None => picture,
         });
     }
-    Ok(Drawn { plan, cover, sheets })
+    Ok(DrawnFrame { plan, cover, sheets })
 }
 
-impl Drawn {
+impl DrawnFrame {
     /// Copies the frame into the window of the renderer's context.
     ///
     /// # Errors

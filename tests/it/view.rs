@@ -317,13 +317,14 @@ fn a_broken_file_leaves_the_picture_and_is_told() {
     waiting.end();
     assert!(folder.picture("last.png") == before);
     // The error's sheet is in the lower part.
-    let mut waiting = Waiting::start(&folder, "wait(60)");
+    let before = folder.render("scene.toml", &["--size", "400x300"]);
+    let mut waiting = Waiting::start(&folder, "size(400,300) wait(60)");
     waiting.hear("waiting");
     folder.write("cube.obj", "v 1 2\n");
     waiting.hear("error: ");
     waiting.end();
     let shown = folder.picture("last.png");
-    assert!(shown != before && shown.pixels().zip(before.pixels()).take(120 * 8).all(|(a, b)| a == b));
+    assert!(shown != before && shown.pixels().zip(before.pixels()).take(400 * 150).all(|(a, b)| a == b));
 }
 
 /// What the mouse has moved stays where the files do not change it.

@@ -16,7 +16,7 @@ fn a_window_shows_what_a_script_shows_and_idles() {
     let expected = ["", "c", "c t", "c t v", "c t v h"].map(headless);
     let mut command = folder.command(&["view", "scene.toml"]);
     command.env("DISPLAY", server.display()).env_remove("WAYLAND_DISPLAY");
-    let mut window = Running::start("glumbra view", command, server.display(), [120, 90]);
+    let mut window = Running::start("glumbra view scene.toml", command, server.display(), [120, 90]);
     window.shows(&expected[0], "the scene");
     for (letter, (said, picture)) in [b'c', b't', b'v', b'h']
         .into_iter()

@@ -13,6 +13,9 @@ const STEP: f64 = 0.08;
 /// Share of the distance to the farthest object by which the far plane lies behind it.
 const ROOM: f64 = 1.05;
 
+/// Share of the objects' radius that the near plane, and the eye from its target, keep at least.
+const NEAREST: f64 = 5e-3;
+
 /// Steepest look up or down, in degrees: `up` keeps its meaning.
 const STEEPEST_DEGREES: f64 = 89.0;
 
@@ -66,18 +69,23 @@ impl Explorer {
     }
 
     pub(super) fn zoom(&mut self, steps: f64) {
+        let least = NEAREST * self.scene.world_bounds().radius();
         let camera = &mut self.scene.camera;
-        let least = 2.0 * camera.near;
         camera.eye = dolly(camera.eye, camera.target, steps, [least, f64::MAX.sqrt()]);
         self.reach_objects();
     }
 
-    /// Moves the far plane behind all objects, or to where the file has it.
+    /// Moves the far plane behind all objects, or to where the file has it; and the near plane from where the file has it to
+    /// before the objects.
     fn reach_objects(&mut self) {
         let bounds: Aabb = self.scene.world_bounds();
-        let distance = self.scene.camera.eye.distance(bounds.center()) + bounds.radius();
-        let far = self.base.camera.far;
-        self.scene.camera.far = if distance.is_finite() { far.max(ROOM * distance) } else { far };
+        let radius = bounds.radius();
+        let distance = self.scene.camera.eye.distance(bounds.center());
+        let Camera { near, far, .. } = self.base.camera;
+        if radius.is_finite() && radius > 0.0 && distance.is_finite() {
+            self.scene.camera.near = near.min((0.5 * (distance - radius)).max(NEAREST * radius));
+            self.scene.camera.far = far.max(ROOM * (distance + radius));
+        }
     }
 
     /// Moves the chosen light about what it points at; a point light about the objects' middle.
