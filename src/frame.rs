@@ -214,13 +214,13 @@ impl Renderer {
         Ok(self.device.present(&plan.list, plan.picture, window)?)
     }
 
-    /// Copies a sheet over that, `edge` pixels from the window's left and upper edge.
+    /// Copies a sheet over that, `place` pixels from the window's left and upper edge.
     ///
     /// # Errors
     ///
     /// See [`Device::present_sheet`].
-    pub fn present_sheet(&mut self, sheet: &Arc<Texture>, edge: u32, window: [u32; 2]) -> Result<(), Error> {
-        Ok(self.device.present_sheet(sheet, edge, window)?)
+    pub fn present_sheet(&mut self, sheet: &Arc<Texture>, place: [u32; 2], window: [u32; 2]) -> Result<(), Error> {
+        Ok(self.device.present_sheet(sheet, place, window)?)
     }
 
     /// Reads what [`Renderer::present`] put into the window.

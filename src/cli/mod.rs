@@ -35,6 +35,8 @@ mod stress;
 mod test;
 mod truth_views;
 mod tune;
+#[cfg(feature = "window")]
+mod view;
 
 #[cfg(test)]
 mod help_tests;
@@ -80,6 +82,8 @@ enum Command {
     Stress(stress::StressArgs),
     Test(test::TestArgs),
     Tune(tune::TuneArgs),
+    #[cfg(feature = "window")]
+    View(view::ViewArgs),
     #[command(hide = true)]
     Generate(generate::GenerateArgs),
 }
@@ -191,7 +195,16 @@ pub enum Error {
     NotJudged { picture: std::path::PathBuf, what: String },
     #[error("the picture of the differences: {0}")]
     DifferencePicture(String),
-    #[error("{path}: a picture of differences is a PNG: end its name in .png", path = .path.display())]
+    #[cfg(feature = "window")]
+    #[error("glumbra view -: a scene on standard input has no file to be seen changing; save it first")]
+    ViewStandardInput,
+    #[cfg(feature = "window")]
+    #[error("a window has its display's context: --context and --device go with --headless")]
+    WindowContext,
+    #[cfg(feature = "window")]
+    #[error("--save-in {folder}: there is no such folder", folder = .folder.display())]
+    NoSaveFolder { folder: std::path::PathBuf },
+    #[error("{path}: this picture is a PNG: end its name in .png", path = .path.display())]
     NotPng { path: std::path::PathBuf },
     #[error("{path}: this file is read; name another for the picture of differences", path = .path.display())]
     IsRead { path: std::path::PathBuf },
@@ -240,6 +253,8 @@ pub fn run() -> ExitCode {
         Command::Stress(arguments) => return stress::run(&arguments, screen),
         Command::Test(arguments) => return test::run(&arguments, screen),
         Command::Tune(arguments) => tune::run(&arguments, screen),
+        #[cfg(feature = "window")]
+        Command::View(arguments) => view::run(&arguments),
         Command::Generate(arguments) => generate::run(&arguments, screen),
     };
     exit_code(result)

@@ -30,13 +30,13 @@ impl Device {
         self.check(LABEL)
     }
 
-    /// Copies `sheet` into the default framebuffer, texel by pixel, `edge` pixels from its left and upper edge. `window` is the
-    /// default framebuffer's size; what does not fit at the right and below is cut off.
+    /// Copies `sheet` into the default framebuffer, texel by pixel, `place` pixels from its left and upper edge. `window` is
+    /// the default framebuffer's size; what does not fit at the right and below is cut off.
     ///
     /// # Errors
     ///
     /// GL errors.
-    pub fn present_sheet(&mut self, sheet: &Arc<Texture>, edge: u32, window: [u32; 2]) -> Result<(), Error> {
+    pub fn present_sheet(&mut self, sheet: &Arc<Texture>, place: [u32; 2], window: [u32; 2]) -> Result<(), Error> {
         const LABEL: &str = "presenting a sheet";
         self.make_current()?;
         let size = [sheet.width, sheet.height];
@@ -47,9 +47,9 @@ impl Device {
         let describe = || (String::from(LABEL), desc.label.clone());
         self.without_scissor();
         let _read = framebuffer::create(&self.gl, Some(texture.name), None, target, describe)?;
-        let room = window.map(|side| side.saturating_sub(edge));
+        let room = [0, 1].map(|axis| window[axis].saturating_sub(place[axis]));
         let [width, height] = [0, 1].map(|axis| size[axis].min(room[axis]) as i32);
-        let (left, top, rows) = (edge as i32, room[1] as i32, size[1] as i32);
+        let (left, top, rows) = (place[0] as i32, room[1] as i32, size[1] as i32);
         let (from, to) = ([0, rows - height, width, rows], [left, top - height, left + width, top]);
         unsafe {
             self.gl.bind_framebuffer(glow::DRAW_FRAMEBUFFER, None);

@@ -27,6 +27,7 @@ pub use self::common::CommonKeys;
 pub use self::read::{
     LightShadow, Techniques, keys, load, load_embedded, load_str, map_size, read, read_text, unshadowed, with_keys,
 };
+pub use self::shadow_map::bias::offset as map_offset;
 pub use self::shadow_map::settings::{DEFAULT_SIZE as DEFAULT_MAP_SIZE, Settings as MapSettings};
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::PassList;

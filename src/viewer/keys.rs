@@ -1,7 +1,6 @@
 //! Keys and their commands: one table for the window and for the help.
 
 use super::{Handle, Mode};
-use crate::output::canvas::{Canvas, Color, LINE, text_width, wrapped};
 
 /// Command of a key.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -49,7 +48,7 @@ pub fn command(name: &str) -> Option<Command> {
 const MOUSE: [(&str, &str); 3] =
     [("left drag", "turns what the mouse holds"), ("right drag", "moves it nearer or farther"), ("wheel", "the same")];
 
-const HEADING: &str = "Keys and mouse in the window:";
+pub const HEADING: &str = "Keys and mouse in the window:";
 
 /// Columns of the keys' names.
 const NAMES: usize = 14;
@@ -82,38 +81,6 @@ pub fn help_of(rows: Vec<(String, String)>) -> String {
     [String::from(HEADING)].into_iter().chain(rows).collect::<Vec<_>>().join("\n")
 }
 
-/// The help as a sheet for a window of this width.
-pub fn help_sheet(rows: Vec<(String, String)>, window_width: u32) -> Canvas {
-    const PAPER: Color = [24, 26, 30];
-    const INK: Color = [230, 230, 230];
-    const STRONG: Color = [255, 214, 90];
-    const MARGIN: u32 = 8;
-    /// Least width of what keys do, in pixels: a narrower window shows a part of the sheet.
-    const NARROWEST: u32 = 120;
-    let gap = 2 * MARGIN;
-    let names = rows.iter().map(|(name, _)| text_width(name)).max().unwrap_or(0) + gap;
-    let most = window_width.saturating_sub(2 * HELP_EDGE + 2 * MARGIN + names).max(NARROWEST);
-    let rows = rows.into_iter().map(|(name, what)| (name, wrapped(&what, most)));
-    let rows: Vec<(String, Vec<String>)> = rows.collect();
-    let lines = rows.iter().flat_map(|(_, lines)| lines);
-    let longest = lines.map(|line| text_width(line)).max().unwrap_or(0).max(text_width(HEADING).saturating_sub(names));
-    let count = 1 + rows.iter().map(|(_, lines)| lines.len() as u32).sum::<u32>();
-    let mut sheet = Canvas::new([2 * MARGIN + names + longest, 2 * MARGIN + LINE * count], PAPER);
-    sheet.write([MARGIN, MARGIN], HEADING, INK);
-    let mut top = MARGIN + LINE;
-    for (name, lines) in rows {
-        sheet.write([MARGIN, top], &name, STRONG);
-        for text in lines {
-            sheet.write([MARGIN + names, top], &text, INK);
-            top += LINE;
-        }
-    }
-    sheet
-}
-
-/// Pixels between a window's edges and its help.
-pub const HELP_EDGE: u32 = 8;
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -132,13 +99,6 @@ mod tests {
     fn the_help_lists_the_modes_in_the_order_that_space_takes() {
         let help = help(&[]);
         assert!(help.contains("next picture: with shadows, from the light, without shadows\n"), "{help}");
-    }
-
-    #[test]
-    fn a_sheet_is_as_wide_as_its_window_allows() {
-        let [wide, narrow] = [512, 300].map(|width| help_sheet(rows(&["a", "b"]), width).size());
-        assert!(wide[0] <= 512 - 2 * HELP_EDGE && narrow[0] <= 300 - 2 * HELP_EDGE, "{wide:?} {narrow:?}");
-        assert!(wide[0] > 400 && wide[1] < narrow[1] && wide[1] < 300, "{wide:?} {narrow:?}");
     }
 
     #[test]

@@ -1,12 +1,15 @@
-//! A scene in a window, to walk around in: what the sample programs share. [`State`] and [`ModelState`] are plain data
-//! and know no window; [`run`] joins a [`Show`] to winit's events. Each change makes a new plan, and the device skips
+//! A scene in a window, to walk around in: what `glumbra view` and the sample programs share. [`State`], [`ModelState`] and
+//! [`explore::Explorer`] are plain data and know no window; [`run`] joins a [`Show`] to winit's events. Each change makes a new plan, and the device skips
 //! passes that the last plan had, too: the map stays when only the camera moves.
 
+pub mod explore;
 mod keys;
 mod mode;
 mod model_keys;
 mod model_state;
 mod orbit;
+mod picture;
+mod sheet;
 mod show;
 mod state;
 mod tweak;
@@ -21,7 +24,8 @@ pub use state::State;
 pub use tweak::{TWEAKS, Tweak};
 pub use window::{Shown, run};
 
-use crate::{context, frame};
+use crate::judge::truth_pictures;
+use crate::{context, frame, output, scene};
 
 /// Reason why a window could not be opened or drawn in.
 #[derive(Debug, thiserror::Error)]
@@ -37,4 +41,12 @@ pub enum Error {
     Context(#[from] context::Error),
     #[error(transparent)]
     Frame(#[from] frame::Error),
+    #[error(transparent)]
+    Scene(#[from] scene::Error),
+    #[error(transparent)]
+    File(#[from] output::Error),
+    #[error("{folder}: has thousands of saved pictures of this scene: move them away", folder = .folder.display())]
+    Full { folder: std::path::PathBuf },
+    #[error(transparent)]
+    Truth(#[from] truth_pictures::Error),
 }

@@ -8,6 +8,7 @@ use std::sync::Arc;
 use glam::{DMat4, DVec2, DVec3};
 
 use super::model_keys::{ModelCommand, ModelMode, command, model_help};
+use super::sheet::{help_pages, next_page};
 use super::show::{Button, Reaction, Show};
 use crate::geometry::Material;
 use crate::geometry::md2::{Model, NormalSource, Pose};
@@ -58,7 +59,7 @@ pub struct ModelState {
     shows_room: bool,
     shows_wire: bool,
     size: [u32; 2],
-    helps: bool,
+    help_page: Option<usize>,
     /// Reason why the last command changed nothing, or not what the help says.
     refused: Option<String>,
 }
@@ -102,7 +103,7 @@ impl ModelState {
             shows_room: true,
             shows_wire: false,
             size: scene.image.size,
-            helps: false,
+            help_page: None,
             refused: None,
             scene,
         };
@@ -176,7 +177,7 @@ impl ModelState {
                 self.scene.camera = self.first.camera.clone();
                 self.place_light(self.first.lights.first().and_then(Light::position));
             }
-            ModelCommand::Help => self.helps = !self.helps,
+            ModelCommand::Help => self.help_page = next_page(self.help_page, help_pages(model_help(), self.size).len()),
             ModelCommand::Quit => return Reaction::Quit,
         }
         if let Err(error) = self.drawn() {
@@ -330,8 +331,8 @@ impl Show for ModelState {
         }
     }
 
-    fn helps(&self) -> bool {
-        self.helps
+    fn help_page(&self) -> Option<usize> {
+        self.help_page
     }
 
     fn help(&self) -> Vec<(String, String)> {

@@ -6,6 +6,7 @@ use glam::{DMat4, DVec2, DVec3};
 use super::keys::{self, Command};
 use super::mode::{Handle, Mode};
 use super::orbit::{distance_of_sphere, dolly, orbit, turn_about};
+use super::sheet::{help_pages, next_page};
 use super::show::{Button, Reaction, Show};
 use super::{TWEAKS, Tweak};
 use crate::math::{Aabb, frustum};
@@ -22,7 +23,7 @@ pub struct State {
     held: Handle,
     tweak: usize,
     size: [u32; 2],
-    helps: bool,
+    help_page: Option<usize>,
     /// Error of the last command, if it has changed nothing.
     refused: Option<String>,
     techniques: &'static [&'static str],
@@ -39,7 +40,7 @@ impl State {
             held: Handle::default(),
             tweak: 0,
             size,
-            helps: false,
+            help_page: None,
             refused: None,
             techniques: &[],
         }
@@ -57,7 +58,7 @@ impl State {
 
     /// Tests whether the window shows the help.
     pub fn helps(&self) -> bool {
-        self.helps
+        self.help_page.is_some()
     }
 
     /// The scene as changed so far.
@@ -114,7 +115,9 @@ impl State {
                 let tweak = self.tweak();
                 self.change_shadows(|written| tweak.step(written, steps));
             }
-            Command::Help => self.helps = !self.helps,
+            Command::Help => {
+                self.help_page = next_page(self.help_page, help_pages(keys::rows(self.techniques), self.size).len())
+            }
             Command::Quit => return Reaction::Quit,
         }
         Reaction::Redraw
@@ -280,8 +283,8 @@ impl Show for State {
         self.dolly(steps);
     }
 
-    fn helps(&self) -> bool {
-        self.helps()
+    fn help_page(&self) -> Option<usize> {
+        self.help_page
     }
 
     fn help(&self) -> Vec<(String, String)> {

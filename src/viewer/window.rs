@@ -3,8 +3,7 @@
 
 use std::io::Write;
 use std::rc::Rc;
-use std::sync::Arc;
-use std::time::Instant;
+use std::time::{Duration, Instant};
 
 use glam::DVec2;
 use winit::application::ApplicationHandler;
@@ -15,14 +14,13 @@ use winit::keyboard::{Key, NamedKey};
 use winit::window::WindowId;
 
 use super::Error;
-use super::keys::{HELP_EDGE, help_of, help_sheet};
+use super::keys::help_of;
+use super::picture;
 use super::show::{Button, Reaction, Show};
 use crate::context::window::{self, WindowContext};
 use crate::context::{self, Choice, Context, ContextInfo, ContextRequest, Profile};
 use crate::device::Pixels;
 use crate::frame::Renderer;
-use crate::output;
-use crate::plan::Request;
 
 /// Look of a window.
 #[derive(Clone, Debug)]
@@ -51,12 +49,25 @@ pub fn run(state: impl Show, shown: Shown) -> Result<Option<(Pixels, ContextInfo
     }
     let events = window::event_loop().map_err(cannot_open)?;
     events.set_control_flow(ControlFlow::Wait);
-    let mut app = App { state, shown, live: None, mouse: Mouse::default(), moved: None, captured: None, failed: None };
+    let mut app = App {
+        state,
+        shown,
+        live: None,
+        mouse: Mouse::default(),
+        moved: None,
+        polled: Instant::now(),
+        frames: 0,
+        captured: None,
+        failed: None,
+    };
     let ended = events.run_app(&mut app);
     if let Some(error) = app.failed {
         return Err(error);
     }
     ended.map_err(|error| Error::Open(error.to_string()))?;
+    if let Some(line) = app.state.end(app.frames) {
+        say(&line);
+    }
     Ok(app.captured)
 }
 
@@ -67,6 +78,10 @@ struct App<S> {
     mouse: Mouse,
     /// Time to which the state was moved on.
     moved: Option<Instant>,
+    /// Time at which the state looked for changes.
+    polled: Instant,
+    /// Number of frames that were drawn.
+    frames: u32,
     captured: Option<(Pixels, ContextInfo)>,
     failed: Option<Error>,
 }
@@ -107,23 +122,9 @@ impl<S: Show> App<S> {
         let Some(Live { renderer, context }) = &mut self.live else { return Ok(()) };
         let size = context.size();
         self.state.resize(size);
-        let (scene, request) = self.state.frame();
-        let plan = renderer.plan(&scene, &Request { sampled_warnings: false, ..request })?;
-        renderer.draw(&plan)?;
-        match plan.views.first() {
-            None => renderer.present(&plan, size)?,
-            // Views are floats or counts: their colours are those of their files.
-            Some((wanted, _)) => {
-                let frame = renderer.read(&plan)?;
-                let view = frame.views.first().map(|pixels| output::to_canvas(pixels, Some(wanted.view)));
-                let sheet = view.map(|canvas| Arc::new(canvas.to_texture("view")));
-                sheet.map(|sheet| renderer.present_sheet(&sheet, 0, size)).transpose()?;
-            }
-        }
-        if self.state.helps() {
-            let sheet = help_sheet(self.state.help(), size[0]).to_texture("help");
-            renderer.present_sheet(&Arc::new(sheet), HELP_EDGE, size)?;
-        }
+        let drawn = picture::draw_or_go_back(&mut self.state, renderer)?;
+        self.frames += 1;
+        drawn.present(renderer, size)?;
         if self.shown.capture && self.captured.is_none() {
             self.captured = Some((renderer.read_window(size)?, context.describe()));
         }
@@ -152,6 +153,12 @@ impl<S: Show> App<S> {
                 self.redraw();
             }
             Reaction::Retitle => self.tell(),
+            Reaction::Save => {
+                if let Some(live) = &mut self.live {
+                    self.state.save(&mut live.renderer);
+                }
+                self.tell();
+            }
             Reaction::Quit => event_loop.exit(),
         }
     }
@@ -172,13 +179,27 @@ impl<S: Show> App<S> {
     fn advance(&mut self, event_loop: &ActiveEventLoop) {
         if self.shown.capture || !self.state.moves() {
             self.moved = None;
-            return event_loop.set_control_flow(ControlFlow::Wait);
+            let flow = self.poll().map_or(ControlFlow::Wait, ControlFlow::wait_duration);
+            return event_loop.set_control_flow(flow);
         }
         let now = Instant::now();
         let passed = self.moved.replace(now).map_or(0.0, |last| (now - last).as_secs_f64());
         self.state.advance(passed.min(LONGEST_STEP));
         self.redraw();
         event_loop.set_control_flow(ControlFlow::Poll);
+    }
+
+    /// Has the state look for changes if it is time, and returns the time until it is again.
+    fn poll(&mut self) -> Option<Duration> {
+        let interval = self.state.polls().filter(|_| !self.shown.capture)?;
+        if self.polled.elapsed() >= interval {
+            self.polled = Instant::now();
+            if self.state.poll().is_some() {
+                self.tell();
+                self.redraw();
+            }
+        }
+        Some(interval.saturating_sub(self.polled.elapsed()))
     }
 
     fn wheel(&mut self, delta: MouseScrollDelta) {
@@ -276,6 +297,9 @@ fn key_name(key: &Key) -> Option<&str> {
         Key::Named(NamedKey::Home) => Some("Home"),
         Key::Named(NamedKey::ArrowUp) => Some("Up"),
         Key::Named(NamedKey::ArrowDown) => Some("Down"),
+        Key::Named(NamedKey::ArrowLeft) => Some("Left"),
+        Key::Named(NamedKey::ArrowRight) => Some("Right"),
+        Key::Named(NamedKey::Backspace) => Some("Backspace"),
         Key::Named(NamedKey::PageUp) => Some("PageUp"),
         Key::Named(NamedKey::PageDown) => Some("PageDown"),
         _ => None,

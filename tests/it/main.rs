@@ -82,6 +82,8 @@ mod suns;
 mod support;
 mod tags;
 mod uploads;
+mod view;
+mod view_window;
 mod viewer;
 mod volume_warnings;
 mod volumes;

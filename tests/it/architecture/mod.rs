@@ -15,7 +15,7 @@ const ARROWS: &[(&str, &[&str])] = &[
     ("cli", &["viewer", "keys", "gallery", "figures", "stress", "report", "cases", "fixed_function", "conformance"]),
     // Names of other modules.
     ("prelude", &["frame", "truth", "output"]),
-    ("viewer", &["frame", "output"]),
+    ("viewer", &["frame", "output", "judge"]),
     // Shadow techniques read a part of the keys.
     ("keys", &["techniques"]),
     // Its scenes are embedded as those of figures are, with the same pictures and models.
