@@ -8,6 +8,7 @@
 mod commands;
 mod doing;
 mod memory;
+mod notes;
 mod reading;
 #[cfg(unix)]
 mod signals;
@@ -18,6 +19,7 @@ pub mod work;
 pub(crate) use commands::start;
 pub(crate) use doing::doing;
 pub use memory::Memory;
+pub(crate) use notes::{listen, note};
 pub use reading::{Progress, progress};
 pub(crate) use reading::{Reading, reading};
 #[cfg(unix)]

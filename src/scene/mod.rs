@@ -15,6 +15,7 @@ mod overrides;
 mod parse;
 mod photo;
 mod pixels;
+mod plain;
 mod print;
 mod projected;
 mod ranges;

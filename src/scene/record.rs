@@ -1,9 +1,9 @@
 //! A record of the keys that readers ask for, with the values that each may have: `glumbra keys` lists it.
 
-use std::cell::RefCell;
 use std::ops::RangeInclusive;
 
-use super::settings::{Plain, Settings, words};
+use super::plain::{Plain, words};
+use crate::process;
 
 /// Values that a key may have.
 #[derive(Clone, Debug, PartialEq)]
@@ -71,18 +71,12 @@ impl ValueForm {
     }
 }
 
-thread_local! {
-    /// Keys that were read on this thread, while they are recorded.
-    static RECORD: RefCell<Option<Vec<(String, ValueForm)>>> = const { RefCell::new(None) };
-}
-
 /// Does `work`, and returns the dotted names of the keys that it reads on this thread, in order, each with the forms that it
 /// may have.
 pub fn record<T>(work: impl FnOnce() -> T) -> (T, Vec<(String, Vec<ValueForm>)>) {
-    RECORD.set(Some(Vec::new()));
-    let done = work();
+    let (done, notes) = process::listen::<T, KeyNote>(work);
     let mut keys: Vec<(String, Vec<ValueForm>)> = Vec::new();
-    for (key, form) in RECORD.take().unwrap_or_default() {
+    for KeyNote { key, form } in notes {
         match keys.iter_mut().find(|(name, _)| *name == key) {
             None => keys.push((key, vec![form])),
             Some((_, forms)) => add(forms, form),
@@ -91,8 +85,14 @@ pub fn record<T>(work: impl FnOnce() -> T) -> (T, Vec<(String, Vec<ValueForm>)>)
     (done, keys)
 }
 
+/// A key that is read.
+struct KeyNote {
+    key: String,
+    form: ValueForm,
+}
+
 /// Adds a form, unless another says as much or more.
-pub fn add(forms: &mut Vec<ValueForm>, form: ValueForm) {
+fn add(forms: &mut Vec<ValueForm>, form: ValueForm) {
     forms.retain(|known| !known.is_less_than(&form));
     if !forms.iter().any(|known| *known == form || form.is_less_than(known)) {
         forms.push(form);
@@ -100,10 +100,9 @@ pub fn add(forms: &mut Vec<ValueForm>, form: ValueForm) {
 }
 
 /// Notes that a key is read, if that is recorded.
-pub(super) fn note(table: &Settings, key: &str, form: impl FnOnce() -> ValueForm) {
-    RECORD.with_borrow_mut(|record| {
-        if let Some(record) = record {
-            record.push((table.key(key), form()));
-        }
+pub(super) fn note(make: impl FnOnce() -> (String, ValueForm)) {
+    process::note(|| {
+        let (key, form) = make();
+        KeyNote { key, form }
     });
 }
