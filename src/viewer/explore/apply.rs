@@ -177,7 +177,11 @@ impl Show for Explorer {
 
     fn frame(&self) -> (Scene, Request) {
         let mut scene = self.scene_of_look();
-        scene.image.size = self.size;
+        scene.image.size = match self.looks.now() {
+            // Both pictures are as large as half of the window.
+            Some(_) if self.looks.is_beside => [(self.size[0] / 2).max(1), self.size[1]],
+            _ => self.size,
+        };
         let views = self.looks.now().and_then(|look| look.drawn(self.light)).into_iter().collect();
         (scene, Request { views, ..Request::default() })
     }
