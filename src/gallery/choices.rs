@@ -13,12 +13,12 @@ use crate::truth;
 /// A case, as `data/gallery/choices.toml` has it.
 #[derive(Clone, Debug, Deserialize)]
 #[serde(deny_unknown_fields)]
-pub struct Choice {
+pub struct TechniqueChoice {
     /// Name in links.
     pub id: String,
     pub title: String,
     /// Use of shadow maps in this case, as the document has it.
-    pub verdict: Verdict,
+    pub verdict: MapVerdict,
     /// A sentence or two.
     pub why: String,
     /// Tag of the document in data/documents.md, without brackets.
@@ -36,12 +36,12 @@ pub struct Choice {
 /// Use of shadow maps in a case.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
 #[serde(rename_all = "kebab-case")]
-pub enum Verdict {
+pub enum MapVerdict {
     Suited,
     IllAdvised,
 }
 
-impl Verdict {
+impl MapVerdict {
     /// The verdict in words.
     pub fn name(self) -> &'static str {
         match self {
@@ -63,7 +63,7 @@ pub struct Candidate {
 /// A case with its measures, the first technique's first.
 #[derive(Clone, Debug)]
 pub struct MeasuredChoice {
-    pub choice: Choice,
+    pub choice: TechniqueChoice,
     pub measures: [Price; 2],
 }
 
@@ -84,10 +84,10 @@ const FRAMES: u32 = 5;
 /// # Errors
 ///
 /// A file that was compiled in damaged.
-pub fn choices() -> Result<Vec<Choice>, Error> {
+pub fn choices() -> Result<Vec<TechniqueChoice>, Error> {
     #[derive(Deserialize)]
     struct File {
-        choice: Vec<Choice>,
+        choice: Vec<TechniqueChoice>,
     }
     let file: File = toml::from_str(include_str!("../../data/gallery/choices.toml"))?;
     Ok(file.choice)
@@ -98,7 +98,7 @@ pub fn choices() -> Result<Vec<Choice>, Error> {
 /// # Errors
 ///
 /// A scene that cannot be loaded, planned, drawn or traced.
-pub fn measure(choice: &Choice, quick: bool, renderer: &mut Renderer) -> Result<MeasuredChoice, Error> {
+pub fn measure(choice: &TechniqueChoice, quick: bool, renderer: &mut Renderer) -> Result<MeasuredChoice, Error> {
     let scene = |candidate: &Candidate| -> Result<Scene, Error> {
         let embedded = scenes::find(&choice.scene)
             .ok_or_else(|| Error::NoScene { id: choice.id.clone(), scene: choice.scene.clone() })?;

@@ -13,7 +13,7 @@ mod faults;
 mod page;
 mod scenes;
 
-pub use choices::{Choice, MeasuredChoice, choices, measure as measure_choice};
+pub use choices::{MeasuredChoice, TechniqueChoice, choices, measure as measure_choice};
 pub use draw::{DrawnSide, EntrySide, ShownEntry, show};
 pub use entry::{EntryMeasure, GalleryEntry, chosen, entries};
 pub use faults::Fault;

@@ -3,7 +3,7 @@
 use std::fmt::Write;
 
 use super::command::quoted_sets;
-use crate::gallery::choices::{MeasuredChoice, Price, Verdict};
+use crate::gallery::choices::{MapVerdict, MeasuredChoice, Price};
 use crate::report::numbers::plain;
 use crate::report::show::html::tags::escape;
 
@@ -28,7 +28,7 @@ pub fn section(choices: &[MeasuredChoice]) -> String {
 
 fn row(measured: &MeasuredChoice) -> String {
     let choice = &measured.choice;
-    let verdict = if choice.verdict == Verdict::Suited { "cure" } else { "failure" };
+    let verdict = if choice.verdict == MapVerdict::Suited { "cure" } else { "failure" };
     let mut lines = String::new();
     for (candidate, price) in [&choice.first, &choice.second].into_iter().zip(&measured.measures) {
         let sets: Vec<String> = choice.set.iter().chain(&candidate.set).cloned().collect();

@@ -26,14 +26,17 @@
     words.textContent = entries[current].querySelector('h2').textContent + ': ' + from.querySelector('figcaption').textContent;
     if (!box.open) box.showModal();
   };
+  // The entry that has the focus, if it is in view; else the last one that begins above.
+  const here = () => {
+    const focused = document.activeElement.closest('section.entry');
+    const place = focused ? focused.getBoundingClientRect() : null;
+    const isSeen = place ? Math.min(innerHeight - place.top, place.bottom) > 0 : false;
+    return isSeen ? entries.indexOf(focused) : entries.findLastIndex((entry) => 12 >= entry.getBoundingClientRect().top);
+  };
   const go = (step) => {
-    const from = box.open ? current : seen();
-    const before = scrollY;
-    current = Math.min(Math.max(from + step, 0), entries.length - 1);
-    if (current === from) { if (step === 1) return; }
+    current = Math.min(Math.max((box.open ? current : here()) + step, 0), entries.length - 1);
     entries[current].scrollIntoView();
     entries[current].focus({ preventScroll: true });
-    if (step === 1) { if (scrollY === before) current = from + 1; }
     if (box.open) enlarge();
   };
   const kinds = { f: 'failure', c: 'cure', t: 'truth', d: 'difference' };
