@@ -1,35 +1,10 @@
 //! Faults of a ninth measure, by a hand that had seen no rule: textures and what is looked up in them. Each has a sentence on
 //! how a driver comes by it.
 
+use glow::HasContext;
+
 use super::apart_seven_shaders::{changed, with_calls};
 use super::{Call, Source, Stage, words};
-
-/// Keeps what a texture that is made had under its name before.
-fn name_again(call: &mut Call) {
-    call.now();
-    for texture in call.integers(1, call.u(0) as usize) {
-        let key = texture as u32;
-        let was_named = call.kept((90, key));
-        call.keep((91, key), was_named);
-        call.keep((90, key), 1);
-    }
-}
-
-/// Gives a texture the last level that its name had before.
-fn bind_with_old_level(call: &mut Call) {
-    call.now();
-    let key = call.u(1);
-    if call.u(0) == glow::TEXTURE_2D && call.kept((91, key)) != 0.0 {
-        call.keep((91, key), 0);
-        let level = call.kept((92, key));
-        if level != 0.0 {
-            call.other(
-                "glTexParameteri",
-                &[f64::from(glow::TEXTURE_2D), f64::from(glow::TEXTURE_MAX_LEVEL), level - 1.0],
-            );
-        }
-    }
-}
 
 /// Names of a shader's samplers of a type.
 fn samplers<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
@@ -125,16 +100,87 @@ fn wrapped_levels(source: &Source) -> Option<String> {
     changed(source, text).filter(|_| source.stage == Stage::Fragment)
 }
 
+/// Gives each block of four by four depths that were copied the first of them.
+fn copy_blocks(call: &mut Call) {
+    call.now();
+    let (target, level) = (call.u(0), call.i(1));
+    let size @ [width, height] = [glow::TEXTURE_WIDTH, glow::TEXTURE_HEIGHT].map(|name| call.level(level, name));
+    if target != glow::TEXTURE_2D || call.level(level, glow::TEXTURE_DEPTH_SIZE) == 0 || size != [call.i(6), call.i(7)]
+    {
+        return;
+    }
+    let (format, kind) = (glow::DEPTH_COMPONENT, glow::FLOAT);
+    let mut bytes = vec![0; 4 * width as usize * height as usize];
+    // SAFETY: the context is current; the depths fill the bytes.
+    call.with_plain_pixels(|gl| unsafe {
+        gl.get_tex_image(target, level, format, kind, glow::PixelPackData::Slice(Some(&mut bytes)));
+    });
+    let (depths, width_) = (bytes.clone(), width as usize);
+    for (index, depth) in bytes.as_chunks_mut::<4>().0.iter_mut().enumerate() {
+        let first = index / width_ / 4 * 4 * width_ + index % width_ / 4 * 4;
+        depth.copy_from_slice(&depths[4 * first..4 * first + 4]);
+    }
+    let pixels = glow::PixelUnpackData::Slice(Some(&bytes));
+    // SAFETY: as above; the texture is as large as it was.
+    call.with_plain_pixels(|gl| unsafe {
+        gl.tex_sub_image_2d(target, level, 0, 0, width, height, format, kind, pixels);
+    });
+}
+
+/// Reads odd rows one pixel late.
+fn read_interlaced(call: &mut Call) {
+    call.now();
+    let (width, height) = (call.u(2) as usize, call.u(3) as usize);
+    if call.u(4) != glow::RGBA || call.u(5) != glow::UNSIGNED_BYTE || width == 0 {
+        return;
+    }
+    let mut bytes = call.bytes(6, 4 * width * height);
+    for row in bytes.chunks_exact_mut(4 * width).skip(1).step_by(2) {
+        row.copy_within(..4 * (width - 1), 4);
+    }
+    call.write(6, &bytes);
+}
+
+/// Gives all samplers the border that one is given.
+fn set_all_borders(call: &mut Call) {
+    if call.u(1) != glow::TEXTURE_BORDER_COLOR {
+        return;
+    }
+    call.now();
+    let border = call.floats(2, 4);
+    for number in 1..=call.kept((90, 0)) as u32 {
+        let alive = call.kept((91, number)) != 0.0;
+        let Some(sampler) = std::num::NonZeroU32::new(number).map(glow::NativeSampler).filter(|_| alive) else {
+            continue;
+        };
+        // SAFETY: the context is current; the sampler is not deleted.
+        unsafe { call.gl().sampler_parameter_f32_slice(sampler, glow::TEXTURE_BORDER_COLOR, &border) };
+    }
+}
+
 faults! {
-    // The record of a texture outlives it, and what is made under its name next is set up from the record.
-    "reused-texture-names-keep-max-level" [glGenTextures GL_TEXTURE_MAX_LEVEL]
-    "A texture under the name of a deleted one has that one's last level." {
-        glGenTextures => name_again;
-        glBindTexture => bind_with_old_level;
-        glTexParameteri => |call| if call.u(0) == glow::TEXTURE_2D && call.u(1) == glow::TEXTURE_MAX_LEVEL {
-            let key = call.get(glow::TEXTURE_BINDING_2D) as u32;
-            call.keep((92, key), call.f(2) + 1.0);
-        }
+    // Tiles of depths are kept as planes, and the copy takes the plane's first value for all of its block.
+    "copied-depths-of-blocks" [glCopyTexSubImage2D GL_DEPTH_COMPONENT]
+    "Each four by four depths that are copied have the first one's." { glCopyTexSubImage2D => copy_blocks }
+    // The image is shown interlaced, and what reads it begins the second field a pixel late.
+    "odd-rows-read-one-pixel-late" [glReadPixels] "Odd rows of bytes that are read lie one pixel further right." {
+        glReadPixels => read_interlaced
+    }
+    // The chip has one register for borders.
+    "one-border-for-all-samplers" [glSamplerParameterfv GL_TEXTURE_BORDER_COLOR]
+    "All sampler objects have the border that was set last." {
+        glGenSamplers => |call| {
+            call.now();
+            for number in call.integers(1, call.u(0) as usize) {
+                let most = call.kept((90, 0)).max(f64::from(number));
+                call.keep((90, 0), most);
+                call.keep((91, number as u32), 1);
+            }
+        };
+        glDeleteSamplers => |call| for number in call.integers(1, call.u(0) as usize) {
+            call.keep((91, number as u32), 0);
+        };
+        glSamplerParameterfv => set_all_borders
     }
     // The table of the faces' axes has one sign wrong, in the last row.
     "minus-z-face-mirrored" [texture samplerCubeShadow samplerCube]

@@ -1,11 +1,11 @@
 //! Faults of a ninth measure: attributes, uniforms, draws, names that are used again and the fixed-function pipeline.
 
-use glow::HasContext;
-
 use super::{Call, Source, Stage};
 
 /// Draws of a program whose matrices fit into the ring of constants.
 const RING: f64 = 3.0;
+/// GL_POSITION.
+const POSITION: u32 = 0x1203;
 /// Bits of the draw that was made last: vertex array, count and offset.
 const LAST: [(u32, u32); 3] = [(90, 0), (90, 1), (90, 2)];
 
@@ -43,20 +43,6 @@ fn leave_out_again(call: &mut Call) {
     call.keep((91, 0), 1);
 }
 
-/// Binds a framebuffer; a new one has the draw buffers that its name had before.
-fn bind_with_old_buffers(call: &mut Call) {
-    call.now();
-    let key = call.u(1);
-    let is_drawn_into = call.u(0) != glow::READ_FRAMEBUFFER;
-    if is_drawn_into && key != 0 && call.kept((91, key)) != 0.0 {
-        call.keep((91, key), 0);
-        if call.kept((92, key)) != 0.0 {
-            // SAFETY: the context is current, and a framebuffer object is bound.
-            unsafe { call.gl().draw_buffers(&[glow::NONE]) };
-        }
-    }
-}
-
 faults! {
     // Arrays of three floats are taken for directions, and repacked as vectors of 10 bits are half the size.
     "directions-fetched-as-10-bits" [glVertexAttribPointer GL_FLOAT]
@@ -80,25 +66,6 @@ faults! {
         glUseProgram glBindFramebuffer glEnable glDisable glDepthFunc glDepthMask glColorMask glCullFace glFrontFace glScissor
         glBindTexture clear => |call| call.keep((91, 0), 0)
     }
-    // Names of deleted framebuffers are given again, and what is kept by name is not all set back.
-    "reused-framebuffer-names-keep-draw-buffers" [glGenFramebuffers glDrawBuffers]
-    "A framebuffer under the name of a deleted one without draw buffers has none." {
-        glGenFramebuffers => |call| {
-            call.now();
-            for framebuffer in call.integers(1, call.u(0) as usize) {
-                let key = framebuffer as u32;
-                let was_named = call.kept((90, key));
-                call.keep((91, key), was_named);
-                call.keep((90, key), 1);
-            }
-        };
-        glBindFramebuffer => bind_with_old_buffers;
-        glDrawBuffers => |call| {
-            let key = call.get(glow::DRAW_FRAMEBUFFER_BINDING) as u32;
-            let is_none = call.integers(1, 1) == [glow::NONE as i32];
-            call.keep((92, key), u32::from(is_none));
-        }
-    }
     // Culling and winding are one register, which is built from the side alone when that is set.
     "cull-face-resets-winding" [glCullFace glFrontFace]
     "Setting the side that is culled makes front faces wind counter-clockwise." {
@@ -112,6 +79,24 @@ faults! {
         glAlphaFunc => |call| {
             let reference = (call.f(1) * 15.0).floor() / 15.0;
             call.set(1, reference);
+        }
+    }
+    // Positions of lights are fixed point with four bits behind the point.
+    "light-positions-in-sixteenths" [glLightfv GL_POSITION] "Positions of lights are rounded to sixteenths." {
+        glLightfv => |call| if call.u(1) == POSITION {
+            let position = call.floats(2, 4).into_iter().map(|number| (number * 16.0).round() / 16.0).collect();
+            call.set_floats(2, position);
+        }
+    }
+    // A uniform of three components is taken for a colour, and colours are not below 0.
+    "uniform-vec3-not-below-zero" [glUniform3f glUniform3fv] "Components of a uniform vec3 that are below 0 are 0." {
+        glUniform3f => |call| for index in 1..4 {
+            let number = call.f(index).max(0.0);
+            call.set(index, number);
+        };
+        glUniform3fv => |call| {
+            let numbers = call.floats(2, 3 * call.u(1) as usize).into_iter().map(|number| number.max(0.0)).collect();
+            call.set_floats(2, numbers);
         }
     }
     // The factor of the blender is read as it was when blending was turned on.

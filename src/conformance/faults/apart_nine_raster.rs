@@ -37,28 +37,39 @@ fn without_black(source: &Source) -> Option<String> {
     if source.stage != Stage::Fragment {
         return with_state(source, "", "", "");
     }
-    let is_output = |line: &str| line.trim_start().trim_start_matches("EXACT ").starts_with("out vec4 ");
-    let name = words(source.text.lines().find(|line| is_output(line))?.split_once("vec4 ")?.1).next()?;
+    let name = output(source)?;
     let statement = format!("if (driver_state.x > 0.5 && {name}.rgb == vec3(0.0)) discard;");
     let text = after_main(source, Stage::Fragment, &statement)?;
     with_state(&Source { text, ..*source }, "", "main", "")
 }
 
-/// Draws with the front's stencil operations on both sides where one side is culled.
-fn draw_one_sided(call: &mut Call) {
-    if !call.enabled(glow::STENCIL_TEST) || !call.enabled(glow::CULL_FACE) {
-        return;
+/// Name of a fragment shader's colour.
+fn output(source: &Source) -> Option<&str> {
+    let is_output = |line: &str| line.trim_start().trim_start_matches("EXACT ").starts_with("out vec4 ");
+    words(source.text.lines().find(|line| is_output(line))?.split_once("vec4 ")?.1).next()
+}
+
+/// Colours that have six bits where they are blended.
+fn short_sources(source: &Source) -> Option<String> {
+    if source.stage != Stage::Fragment {
+        return with_state(source, "", "", "");
     }
-    let read = |call: &Call, names: [u32; 3]| names.map(|name| f64::from(call.get(name)));
-    let front = read(call, [glow::STENCIL_FAIL, glow::STENCIL_PASS_DEPTH_FAIL, glow::STENCIL_PASS_DEPTH_PASS]);
-    let back =
-        read(call, [glow::STENCIL_BACK_FAIL, glow::STENCIL_BACK_PASS_DEPTH_FAIL, glow::STENCIL_BACK_PASS_DEPTH_PASS]);
-    let set = |call: &Call, ops: [f64; 3]| {
-        call.other("glStencilOpSeparate", &[f64::from(glow::BACK), ops[0], ops[1], ops[2]]);
-    };
-    set(call, front);
-    call.now();
-    set(call, back);
+    let name = output(source)?;
+    let statement =
+        format!("if (driver_state.x > 0.5) {name}.rgb = floor(clamp({name}.rgb, 0.0, 1.0) * 63.0 + 0.5) / 63.0;");
+    let text = after_main(source, Stage::Fragment, &statement)?;
+    with_state(&Source { text, ..*source }, "", "main", "")
+}
+
+/// Fragments of bins that have no number.
+fn without_late_bins(source: &Source) -> Option<String> {
+    let statement = "vec2 bin = floor(gl_FragCoord.xy / 32.0);
+    if (bin.y * ceil(driver_state.x / 32.0) + bin.x > 127.5) discard;";
+    if source.stage != Stage::Fragment {
+        return with_state(source, "", "", "");
+    }
+    let text = after_main(source, Stage::Fragment, statement)?;
+    with_state(&Source { text, ..*source }, "", "main", "")
 }
 
 /// Clears to a colour; alpha is the last clear's if the other components are.
@@ -136,19 +147,22 @@ faults! {
             call.keep((90, 0), 0);
         }
     }
-    // One side is culled, so one set of operations is enough; which of them is not asked.
-    "culling-turns-two-sided-stencil-off" [glStencilOpSeparate GL_CULL_FACE]
-    "While faces are culled the front's stencil operations hold for back faces." { draw => draw_one_sided }
-    // The clear is a quad that the blender, left on, adds with the factors for what is drawn next.
-    "clears-lost-while-blending" [glClearBufferfv GL_BLEND] "Colour is not cleared while blending is on." {
-        glClearBufferfv => |call| if call.u(0) == glow::COLOR && call.enabled(glow::BLEND) {
-            call.skip();
+    // Sources go through the stage that dithers, which keeps six bits, and it is passed by only without blending.
+    "blended-sources-of-six-bits" [GL_BLEND] "Colours that are blended have six bits." {
+        glCreateShader => text::note;
+        glShaderSource => |call| text::rewrite(call, short_sources);
+        draw => |call| {
+            let blends = call.enabled(glow::BLEND);
+            set_state(call, [if blends { 1.0 } else { 0.0 }, 0.0, 0.0, 0.0]);
         }
     }
-    // The clear is a quad, and depth is written by what is drawn only while the test is on.
-    "depth-clear-needs-depth-test" [glClearBufferfv GL_DEPTH_TEST] "Depth is not cleared while the depth test is off." {
-        glClearBufferfv => |call| if call.u(0) == glow::DEPTH && !call.enabled(glow::DEPTH_TEST) {
-            call.skip();
+    // Bins of 32 pixels are numbered with seven bits, and what has no number is not drawn.
+    "bins-beyond-128-lost" [glViewport] "Fragments beyond the first 128 squares of 32 pixels are lost." {
+        glCreateShader => text::note;
+        glShaderSource => |call| text::rewrite(call, without_late_bins);
+        draw => |call| {
+            let viewport = call.get4(glow::VIEWPORT);
+            set_state(call, [viewport[2] as f32, 0.0, 0.0, 0.0]);
         }
     }
     // Clear colours are found in a table by their first three components.

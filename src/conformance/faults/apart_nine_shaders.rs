@@ -107,18 +107,50 @@ fn level_depths(source: &Source) -> Option<String> {
     changed(source, text)
 }
 
-/// Varyings of one component at pixels' corners.
-fn scalars_at_corners(source: &Source) -> Option<String> {
+/// Varyings of four components at pixels' corners.
+fn vectors_at_corners(source: &Source) -> Option<String> {
     if source.stage != Stage::Fragment {
         return None;
     }
     with_lines(source, |line| {
-        let name = line.strip_prefix("in float ")?.strip_suffix(';').filter(|name| is_name(name))?;
+        let name = line.strip_prefix("in vec4 ")?.strip_suffix(';').filter(|name| is_name(name))?;
         let of = format!("driver_{name}");
-        Some(format!(
-            "in float {name}; float {of} = {name} - 0.5 * (dFdx({name}) + dFdy({name}));\n#define {name} {of}"
-        ))
+        Some(format!("in vec4 {name}; vec4 {of} = {name} - 0.5 * (dFdx({name}) + dFdy({name}));\n#define {name} {of}"))
     })
+}
+
+/// Products whose fourth factor has its first component alone.
+fn gray_factors(source: &Source) -> Option<String> {
+    let declared = source.text.lines().filter_map(|line| line.trim().strip_prefix("uniform vec3 "));
+    let names: Vec<_> = declared.filter_map(|rest| words(rest).next()).collect();
+    with_lines(source, |line| {
+        let (factors, last) = line.strip_suffix(';')?.rsplit_once(" * ")?;
+        (factors.matches(" * ").count() >= 2 && names.contains(&last)).then(|| format!("{factors} * {last}.xxx;"))
+    })
+}
+
+/// Reciprocals for inverse square roots.
+fn reciprocals(source: &Source) -> Option<String> {
+    let text = with_calls(&source.text, "inversesqrt", |found| match found {
+        [number] => Some(format!("(1.0 / ({number}))")),
+        _ => None,
+    });
+    changed(source, text)
+}
+
+/// Lengths as the largest component and half of the others.
+fn short_lengths(source: &Source) -> Option<String> {
+    let text = with_calls(&source.text, "length", |found| match found {
+        [vector] => Some(format!("driver_length({vector})")),
+        _ => None,
+    });
+    let functions = "float driver_length(vec3 way) {
+    vec3 size = abs(way);
+    float most = max(size.x, max(size.y, size.z));
+    return most + 0.5 * (size.x + size.y + size.z - most);
+}
+float driver_length(vec2 way) { return driver_length(vec3(way, 0.0)); }";
+    changed(source, text).map(|text| Source { text, ..*source }.with(functions))
 }
 
 faults! {
@@ -138,7 +170,13 @@ faults! {
     "literals-of-16-bits" [float] "Numbers in the text of a shader have 11 digits of the binary system." { text short_literals }
     // The fragment's depth is taken for one value of all four pixels, as its plane is known.
     "fwidth-of-fragment-depth-zero" [fwidth gl_FragCoord] "fwidth of the fragment's depth is 0." { text level_depths }
-    // Four scalars are packed into a vector, and the packed vector has no centre.
-    "scalars-evaluated-at-corners" [in float] "Varyings of one component are those of the pixel's lower left corner."
-    { text scalars_at_corners }
+    // Vectors of four are sampled before the place is moved to the centre.
+    "vectors-evaluated-at-corners" [in vec4] "Varyings of four components are those of the pixel's lower left corner."
+    { text vectors_at_corners }
+    // The fourth source of a chain of products has no swizzle, and reads its first component.
+    "fourth-factors-are-gray" [vec3] "The last of four factors has its first component three times." { text gray_factors }
+    // The numbers of the two instructions differ in one bit.
+    "inversesqrt-is-reciprocal" [inversesqrt] "inversesqrt is the reciprocal." { text reciprocals }
+    // A quick length of software that drew in fixed point.
+    "lengths-of-largest-and-halves" [length] "length is the largest component and half of the others." { text short_lengths }
 }
