@@ -33,6 +33,10 @@ mod apart_eight_inputs;
 mod apart_eight_raster;
 mod apart_eight_shaders;
 mod apart_inputs;
+mod apart_nine;
+mod apart_nine_inputs;
+mod apart_nine_raster;
+mod apart_nine_shaders;
 mod apart_seven;
 mod apart_seven_inputs;
 mod apart_seven_raster;
@@ -151,6 +155,10 @@ const KINDS: &[&[Fault]] = &[
     apart_eight_raster::FAULTS,
     apart_eight_shaders::FAULTS,
     apart_eight_inputs::FAULTS,
+    apart_nine::FAULTS,
+    apart_nine_raster::FAULTS,
+    apart_nine_shaders::FAULTS,
+    apart_nine_inputs::FAULTS,
 ];
 
 /// Every fault.
