@@ -1,9 +1,11 @@
-//! Meshes on the CPU: loading (OBJ and MTL, MD2), primitives, smooth normals, tangent bases, normal maps, skins, shadow
+//! Meshes on the CPU: loading (OBJ and MTL, MD2, glTF), primitives, smooth normals, tangent bases, normal maps, skins, shadow
 //! volumes. No GL, no scene.
 
 pub mod bump;
 mod derived;
 mod error;
+#[cfg(feature = "gltf")]
+mod gltf;
 mod map_options;
 mod material;
 pub mod md2;
@@ -28,6 +30,7 @@ pub mod topology;
 mod vertex_cache_order;
 pub mod volume;
 mod wave;
+mod world;
 
 pub use bump::{Bump, Gloss};
 pub use derived::{Derived, Most};
@@ -40,3 +43,25 @@ pub use text::read_text;
 pub(crate) use texture::find_file;
 pub use texture::{Texture, decode_texture, load_texture};
 pub use wave::Wave;
+pub use world::{LightShape, Named, PlacedCamera, PlacedLight, PlacedMesh, World};
+
+/// Reads a .gltf or .glb file, its buffers and its pictures.
+///
+/// # Errors
+///
+/// A file that is not whole, that names what it does not have, or that needs an extension that is not read; any file, where
+/// cargo feature `gltf` is not compiled in.
+#[cfg(feature = "gltf")]
+pub fn load_gltf(path: &std::path::Path) -> Result<(World, Vec<Warning>), Error> {
+    gltf::load(path)
+}
+
+/// Refuses a .gltf or .glb file: cargo feature `gltf` is not compiled in.
+///
+/// # Errors
+///
+/// Always.
+#[cfg(not(feature = "gltf"))]
+pub fn load_gltf(path: &std::path::Path) -> Result<(World, Vec<Warning>), Error> {
+    Err(Error::NotBuilt { path: path.to_owned(), feature: "gltf" })
+}
