@@ -18,8 +18,8 @@ pub enum Error {
     MalformedAt { path: PathBuf, offset: usize, what: String },
     #[error("{}: {place}: {what}", path.display())]
     Inside { path: PathBuf, place: String, what: String },
-    #[error("{}: the scene has no triangles", path.display())]
-    NoTriangles { path: PathBuf },
+    #[error("{}: the scene has no triangles{why}", path.display())]
+    NoTriangles { path: PathBuf, why: String },
     #[error("{}: this build does not read it: enable glumbra's cargo feature `{feature}`", path.display())]
     NotBuilt { path: PathBuf, feature: &'static str },
     #[error("{}: cannot be part of a program: it is read from its own file alone", path.display())]

@@ -33,6 +33,7 @@ mod floor;
 mod focus;
 mod generated;
 mod geometry_files;
+mod gltf;
 mod growth;
 mod guards;
 mod hw_shadowmaps_simple;

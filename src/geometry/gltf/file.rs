@@ -39,11 +39,13 @@ impl File {
         let bytes = text::read(path)?;
         let (json, binary) = if bytes.starts_with(MAGIC) { chunks(path, &bytes)? } else { (&bytes[..], None) };
         let json = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-        let root: Root = gltf::json::deserialize::from_slice(json).map_err(|error| {
-            let what = format!("is no glTF: {error}");
-            Error::Malformed { path: path.to_owned(), line: error.line(), what }
-        })?;
-        check_version(path, &root)?;
+        check_version(path, json)?;
+        let malformed = |error: gltf::json::Error| Error::Malformed {
+            path: path.to_owned(),
+            line: error.line(),
+            what: format!("is no glTF: {error}"),
+        };
+        let root: Root = gltf::json::deserialize::from_slice(json).map_err(malformed)?;
         let mut file = Self { path: path.to_owned(), root, buffers: Vec::new() };
         for index in 0..file.root.buffers.len() {
             let buffer = file.read_buffer(index, binary)?;
@@ -125,12 +127,21 @@ impl File {
     }
 }
 
-fn check_version(path: &Path, root: &Root) -> Result<(), Error> {
-    let written = root.asset.min_version.as_deref().unwrap_or(&root.asset.version);
-    if written == "2.0" || (root.asset.min_version.is_none() && written.starts_with("2.")) {
-        return Ok(());
+/// Refuses other versions than 2.0 before anything else is read: in glTF 1 even its lists are of another kind. What is no JSON
+/// gets its error later.
+fn check_version(path: &Path, json: &[u8]) -> Result<(), Error> {
+    let Ok(whole) = gltf::json::deserialize::from_slice::<gltf::json::Value>(json) else { return Ok(()) };
+    let Some(asset) = whole.get("asset") else { return Ok(()) };
+    let least = asset.get("minVersion").and_then(|version| version.as_str());
+    let version = least.or(asset.get("version").and_then(|version| version.as_str()));
+    match version {
+        Some(written) if written == "2.0" || (least.is_none() && written.starts_with("2.")) => Ok(()),
+        None if asset.get("version").is_none() => Ok(()),
+        other => {
+            let written = other.unwrap_or("another version");
+            Err(inside(path, "asset", format!("is of glTF {written}; 2.0 can be read")))
+        }
     }
-    Err(inside(path, "asset", format!("is of glTF {written}; 2.0 can be read")))
 }
 
 /// JSON and binary chunks.

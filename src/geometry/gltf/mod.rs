@@ -63,7 +63,9 @@ pub(super) fn load(path: &Path) -> Result<(World, Vec<Warning>), Error> {
         world.meshes.push(PlacedMesh { name, mesh, world_from_model: node.world_from_node, line: node.line });
     }
     if world.meshes.is_empty() {
-        return Err(Error::NoTriangles { path: path.to_owned() });
+        let odd: Vec<String> = odd.warnings().map(|warning| warning.message).collect();
+        let why = if odd.is_empty() { String::new() } else { format!(": {}", odd.join("; ")) };
+        return Err(Error::NoTriangles { path: path.to_owned(), why });
     }
     Ok((world, odd.warnings().collect()))
 }
