@@ -43,17 +43,17 @@ pub use text::read_text;
 pub(crate) use texture::find_file;
 pub use texture::{Texture, decode_texture, load_texture};
 pub use wave::Wave;
-pub use world::{LightShape, Named, PlacedCamera, PlacedLight, PlacedMesh, World};
+pub use world::{LightShape, Moment, Named, PlacedCamera, PlacedLight, PlacedMesh, World};
 
-/// Reads a .gltf or .glb file, its buffers and its pictures.
+/// Reads a .gltf or .glb file, its buffers and its pictures; `moment`: a time of an animation, absent: as the nodes stand.
 ///
 /// # Errors
 ///
 /// A file that is not whole, that names what it does not have, or that needs an extension that is not read; any file, where
 /// cargo feature `gltf` is not compiled in.
 #[cfg(feature = "gltf")]
-pub fn load_gltf(path: &std::path::Path) -> Result<(World, Vec<Warning>), Error> {
-    gltf::load(path)
+pub fn load_gltf(path: &std::path::Path, moment: Option<&Moment>) -> Result<(World, Vec<Warning>), Error> {
+    gltf::load(path, moment)
 }
 
 /// Refuses a .gltf or .glb file: cargo feature `gltf` is not compiled in.
@@ -62,6 +62,7 @@ pub fn load_gltf(path: &std::path::Path) -> Result<(World, Vec<Warning>), Error>
 ///
 /// Always.
 #[cfg(not(feature = "gltf"))]
-pub fn load_gltf(path: &std::path::Path) -> Result<(World, Vec<Warning>), Error> {
+pub fn load_gltf(path: &std::path::Path, moment: Option<&Moment>) -> Result<(World, Vec<Warning>), Error> {
+    let _ = moment;
     Err(Error::NotBuilt { path: path.to_owned(), feature: "gltf" })
 }

@@ -32,6 +32,15 @@ pub struct World {
     pub(super) own: Vec<(String, Arc<Mesh>)>,
 }
 
+/// A time of an animation.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Moment {
+    /// Seconds from the animation's start, at least 0. Before its first key and after its last one it stands still.
+    pub seconds: f64,
+    /// Name of the animation; `None`: the file's first.
+    pub animation: Option<String>,
+}
+
 /// What a name in a file means.
 #[derive(Clone, Debug)]
 pub enum Named {

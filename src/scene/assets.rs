@@ -10,7 +10,7 @@ use super::{Error, ModelSkin};
 use crate::geometry::bump::NormalFormat;
 use crate::geometry::normal_map::{self, Difference, HeightField, HeightWrap, MipColors};
 use crate::geometry::tangents::BasisFit;
-use crate::geometry::{self, Bump, Mesh, Named, PlacedMesh, Texture, World, find_file, md2};
+use crate::geometry::{self, Bump, Mesh, Moment, Named, PlacedMesh, Texture, World, find_file, md2};
 use crate::math::Aabb;
 
 /// Ends of the names of files that have a mesh.
@@ -44,7 +44,7 @@ impl Model {
     }
 
     /// What the file places; `None`: a single mesh.
-    pub fn world(&self) -> Option<&World> {
+    pub fn world(&self) -> Option<&Arc<World>> {
         if let Self::World(world) = self { Some(world) } else { None }
     }
 }
@@ -78,6 +78,9 @@ pub(super) type Posed = (Arc<Mesh>, Option<(md2::Pose, md2::NormalSource)>);
 /// A pose of a file's model, bit for bit.
 type PoseKey = (PathBuf, [usize; 2], u64, md2::NormalSource);
 
+/// A file at a time, bit for bit, of an animation.
+type MomentKey = (PathBuf, u64, Option<String>);
+
 /// Files in memory, each by its name.
 type Files = &'static [(&'static str, &'static [u8])];
 
@@ -88,6 +91,8 @@ pub(super) struct Assets {
     models: HashMap<PathBuf, Model>,
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
+    /// Files whose nodes place meshes, at a time of an animation.
+    moments: HashMap<MomentKey, Arc<World>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
     /// Bump maps by all that their files and keys say.
     pub bumps: HashMap<BumpKey, Arc<Bump>>,
@@ -137,7 +142,12 @@ impl Assets {
 
     /// The meshes of `name`, a file whose nodes place them, or one of its nodes or meshes, `file#name`; `None`: it is a file
     /// of another kind, or none.
-    pub fn placed(&mut self, name: &str, origin: &Origin) -> Result<Option<Vec<PlacedMesh>>, Error> {
+    pub fn placed(
+        &mut self,
+        name: &str,
+        origin: &Origin,
+        moment: Option<&Moment>,
+    ) -> Result<Option<Vec<PlacedMesh>>, Error> {
         let (of_file, part) = split_part(name);
         let path = file(of_file, origin);
         if !is_world(&path) {
@@ -145,7 +155,14 @@ impl Assets {
         }
         let bytes = embedded(self.files, of_file, origin);
         let model = self.model_in(&path, bytes).map_err(|source| Error::Asset { origin: origin.clone(), source })?;
-        let Model::World(world) = model else { return Ok(None) };
+        let Model::World(still) = model else { return Ok(None) };
+        let world = match moment {
+            None => still,
+            Some(moment) => {
+                let world = self.at(&path, moment);
+                world.map_err(|source| Error::Asset { origin: origin.clone(), source })?
+            }
+        };
         let Some(part) = part else { return Ok(Some(world.meshes.clone())) };
         let refuse = |what: String| Err(SettingsError::new(origin, format!("{}: {what}", path.display())).into());
         match world.named(part) {
@@ -173,6 +190,19 @@ impl Assets {
         }
     }
 
+    /// A file whose nodes place meshes, at a time of an animation.
+    pub fn at(&mut self, path: &Path, moment: &Moment) -> Result<Arc<World>, geometry::Error> {
+        let key = (canonical(path), moment.seconds.to_bits(), moment.animation.clone());
+        if let Some(known) = self.moments.get(&key) {
+            return Ok(known.clone());
+        }
+        // What is odd about the file was said when it was read first.
+        let (world, _) = geometry::load_gltf(path, Some(moment))?;
+        let world = Arc::new(world);
+        self.moments.insert(key, world.clone());
+        Ok(world)
+    }
+
     /// A file's model.
     pub fn model(&mut self, path: &Path) -> Result<Model, geometry::Error> {
         self.model_in(path, None)
@@ -186,7 +216,7 @@ impl Assets {
         let (model, warnings) = match embedded {
             Some(_) if is_world(path) => return Err(geometry::Error::Embedded { path: path.to_owned() }),
             None if is_world(path) => {
-                let (world, warnings) = geometry::load_gltf(path)?;
+                let (world, warnings) = geometry::load_gltf(path, None)?;
                 (Model::World(Arc::new(world)), warnings)
             }
             Some(bytes) if has_extension(path, "md2") => key_framed(md2::Model::decode(path, bytes)?),
@@ -298,6 +328,11 @@ pub(super) fn is_model(path: &Path) -> bool {
 /// Tests whether `path` ends as a file's does whose nodes place meshes.
 fn is_world(path: &Path) -> bool {
     WORLDS.iter().any(|extension| has_extension(path, extension))
+}
+
+/// Tests whether the mesh of this name may have animations.
+pub(super) fn is_animated(mesh: &str) -> bool {
+    is_world(Path::new(split_part(mesh).0))
 }
 
 /// The file's name, and the node's or mesh's behind it: `room.glb#Chair`.

@@ -30,6 +30,7 @@ mod views;
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 pub use builder::{LightBuilder, ObjectBuilder, SceneBuilder};
 #[doc(hidden)]
@@ -62,6 +63,7 @@ pub use shadow::Shadow;
 #[doc(hidden)]
 pub use views::with_shadow;
 
+use crate::geometry::World;
 use crate::math::Aabb;
 use assets::{Assets, has_extension, is_model};
 use settings::Plain;
@@ -217,25 +219,28 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
     assets.also_known_as(&name, &model);
-    let world = model.world();
-    let framed = |bounds: &Aabb, aspect: f64, floor: Floor| {
+    let mut world = model.world().cloned();
+    let framed = |world: &Option<Arc<World>>, bounds: &Aabb, aspect: f64, floor: Floor| {
         let mut root = framing(&name, bounds, aspect, floor);
-        world.into_iter().for_each(|world| furnish::with_world(&mut root, world));
+        world.iter().for_each(|world| furnish::with_world(&mut root, world));
         root
     };
-    let is_furnished = world.is_some_and(|world| !world.cameras.is_empty() || !world.lights.is_empty());
+    let is_furnished = world.as_ref().is_some_and(|world| !world.cameras.is_empty() || !world.lights.is_empty());
     let bounds = model.bounds();
-    let mut first = framed(&bounds, 1.0, if is_furnished { Floor::Absent } else { Floor::Touching });
+    let mut first = framed(&world, &bounds, 1.0, if is_furnished { Floor::Absent } else { Floor::Touching });
     overrides::apply(&mut first, overrides)?;
 
     let mut reader = first.read();
     let is_floor_wanted = reader.boolean(FLOOR)?.unwrap_or(true);
     let aspect = resolve::image(reader.table("image")?)?.aspect();
-    let object = reader
-        .tables("object")?
-        .first()
-        .map(|object| resolve::object::read(object, &Shading::default(), assets))
-        .transpose()?;
+    let tables = reader.tables("object")?;
+    // Cameras and lights move, too.
+    if let (Some(world), Some(object)) = (&mut world, tables.first())
+        && let Some(moment) = resolve::object::moment(&mut object.read())?
+    {
+        *world = assets.at(path, &moment)?;
+    }
+    let object = tables.first().map(|object| resolve::object::read(object, &Shading::default(), assets)).transpose()?;
     let objects = object.map(|(objects, _)| objects).unwrap_or_default();
     let bounds = objects.iter().map(Object::world_bounds).reduce(Aabb::union).unwrap_or(bounds);
     check_size(path, &bounds)?;
@@ -250,7 +255,7 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
         }
         () => Floor::Touching,
     };
-    let mut root = framed(&bounds, aspect, floor);
+    let mut root = framed(&world, &bounds, aspect, floor);
     overrides::apply(&mut root, overrides)?;
     root.entries.retain(|(key, _)| key != FLOOR);
     Ok(root)

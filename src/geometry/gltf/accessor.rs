@@ -12,6 +12,7 @@ use super::file::File;
 const MOST_ZEROS: u64 = 1 << 26;
 
 /// Component types that a use allows.
+pub(super) const FLOATS: &[ComponentType] = &[ComponentType::F32];
 pub(super) const INDICES: &[ComponentType] = &[ComponentType::U8, ComponentType::U16, ComponentType::U32];
 /// Those of attributes under KHR_mesh_quantization, and of colours, weights and texture coordinates.
 pub(super) const NUMBERS: &[ComponentType] =

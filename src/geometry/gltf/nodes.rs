@@ -5,6 +5,7 @@ use gltf::json::{Index, Node};
 
 use super::super::Error;
 use super::file::File;
+use super::motion::{Motion, NodeMotion};
 
 /// A node of the scene.
 #[derive(Clone, Debug)]
@@ -22,7 +23,7 @@ impl File {
     /// # Errors
     ///
     /// A node that the file does not have, that two nodes have as their child, or that lies below itself.
-    pub fn placed(&self) -> Result<Vec<Placed>, Error> {
+    pub fn placed(&self, motion: &Motion) -> Result<Vec<Placed>, Error> {
         let mut is_seen = vec![false; self.root.nodes.len()];
         let mut open: Vec<Placed> = Vec::new();
         for (root, place) in self.roots()? {
@@ -37,7 +38,7 @@ impl File {
                 return Err(self.error(place, "lies below two nodes, or below itself"));
             }
             let node = &self.root.nodes[next.node];
-            next.world_from_node *= self.local(node, &place)?;
+            next.world_from_node *= self.local(node, motion.get(&next.node), &place)?;
             next.line.insert(0, next.node);
             for child in node.children.iter().flatten().rev() {
                 self.get(*child, &format!("{place}.children"), "nodes")?;
@@ -66,19 +67,26 @@ impl File {
         Ok(roots.map(|(node, _)| (Index::new(node as u32), String::from("nodes"))).collect())
     }
 
-    /// The node's transform: a matrix, or scaled, then turned, then moved.
-    fn local(&self, node: &Node, place: &str) -> Result<DMat4, Error> {
-        let vector =
-            |numbers: Option<[f32; 3]>, absent| numbers.map_or(absent, |v| DVec3::from_array(v.map(f64::from)));
+    /// The node's transform, as the file or a motion has it: a matrix, or scaled, then turned, then moved.
+    fn local(&self, node: &Node, motion: Option<&NodeMotion>, place: &str) -> Result<DMat4, Error> {
+        let still = NodeMotion::default();
+        let motion = motion.unwrap_or(&still);
+        let is_moved = motion.translation.is_some() || motion.rotation.is_some() || motion.scale.is_some();
+        let vector = |moved: Option<[f64; 3]>, written: Option<[f32; 3]>, absent| {
+            moved.or(written.map(|v| v.map(f64::from))).map_or(absent, DVec3::from_array)
+        };
         let local = match node.matrix {
+            Some(_) if is_moved => return Err(self.error(place, "has a matrix, and an animation that moves it")),
             Some(matrix) => DMat4::from_cols_array(&matrix.map(f64::from)),
             None => {
-                let turn = node.rotation.map_or(DQuat::IDENTITY, |turn| DQuat::from_array(turn.0.map(f64::from)));
+                let turn = motion.rotation.or(node.rotation.map(|turn| turn.0.map(f64::from)));
+                let turn = turn.map_or(DQuat::IDENTITY, DQuat::from_array);
                 let turn = match turn.length() {
                     length if length > 0.0 && length.is_finite() => turn.normalize(),
                     _ => return Err(self.error(place, "has a rotation without a length")),
                 };
-                let (scale, shift) = (vector(node.scale, DVec3::ONE), vector(node.translation, DVec3::ZERO));
+                let scale = vector(motion.scale, node.scale, DVec3::ONE);
+                let shift = vector(motion.translation, node.translation, DVec3::ZERO);
                 DMat4::from_scale_rotation_translation(scale, turn, shift)
             }
         };

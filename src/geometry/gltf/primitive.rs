@@ -9,12 +9,20 @@ use super::super::tally::WarningTally;
 use super::super::tangents::BasisFit;
 use super::super::{CREASE_DEGREES, Error, Mesh, MeshTangents, Part, normals};
 use super::accessor::NUMBERS;
+use super::deform::{Deform, Vertices};
 use super::file::File;
 use super::material::Surface;
 use crate::math::Aabb;
 
-/// The mesh `meshes[index]`; `surfaces`: the file's materials. Without triangles it is empty.
-pub(super) fn read(index: usize, file: &File, surfaces: &[Surface], odd: &mut WarningTally) -> Result<Mesh, Error> {
+/// The mesh `meshes[index]`, deformed, in world space if it has a skin; `surfaces`: the file's materials. Without triangles
+/// it is empty.
+pub(super) fn read(
+    index: usize,
+    file: &File,
+    surfaces: &[Surface],
+    deform: &Deform,
+    odd: &mut WarningTally,
+) -> Result<Mesh, Error> {
     let source = &file.root.meshes[index];
     let name = source.name.clone().unwrap_or_else(|| format!("meshes[{index}]"));
     let mut joined = Mesh { name: format!("{}#{name}", file.path.display()), ..Mesh::default() };
@@ -27,7 +35,7 @@ pub(super) fn read(index: usize, file: &File, surfaces: &[Surface], odd: &mut Wa
                 surfaces.get(material.value()).cloned().unwrap_or_else(Surface::absent)
             }
         };
-        let reader = Reader { file, primitive, place, odd };
+        let reader = Reader { file, primitive, place, deform, odd };
         if let Some(part) = reader.read(surface)? {
             append(&mut joined, part, &name, file)?;
         }
@@ -40,6 +48,7 @@ struct Reader<'a> {
     file: &'a File,
     primitive: &'a Primitive,
     place: String,
+    deform: &'a Deform,
     odd: &'a mut WarningTally,
 }
 
@@ -82,31 +91,33 @@ impl Reader<'_> {
         };
         let positions = self.file.vectors::<3>(index, &place, NUMBERS)?;
         let count = positions.len();
-        let mut mesh = Mesh { positions: singles(&positions), ..Mesh::default() };
-        mesh.indices = self.triangles(mode, count)?;
+        let mut mesh = Mesh { indices: self.triangles(mode, count)?, ..Mesh::default() };
         if mesh.indices.is_empty() {
             return Ok(None);
         }
-        self.texcoords(&mut mesh, &mut surface)?;
+        self.texcoords(&mut mesh, &mut surface, count)?;
         self.note_unread();
         let wants_bases = surface.material.bump.is_some();
         let tangents = if wants_bases { self.vectors::<4>(Semantic::Tangents, count)? } else { None };
-        match self.vectors::<3>(Semantic::Normals, count)? {
-            Some(normals) => mesh.normals = singles(&normals),
-            None => flatten(&mut mesh),
+        let normals = self.vectors::<3>(Semantic::Normals, count)?;
+        let (has_normals, has_tangents) = (normals.is_some(), tangents.is_some());
+        let (normals, tangents) = (normals.unwrap_or_default(), tangents.unwrap_or_default());
+        let mut vertices = Vertices { positions, normals, tangents };
+        self.file.deform(&mut vertices, self.primitive, &self.place, self.deform)?;
+        mesh.positions = singles(&vertices.positions);
+        if has_normals {
+            mesh.normals = singles(&vertices.normals);
+        } else {
+            flatten(&mut mesh);
         }
-        let is_flat = mesh.positions.len() != count || self.attribute(Semantic::Normals).is_none();
         // A file's tangents count with its normals only.
-        match tangents.filter(|_| !is_flat) {
-            None => {
-                self.complete(&mut mesh);
-                if wants_bases && let Some((based, _)) = mesh.with_bases(BasisFit::Orthogonal, None) {
-                    mesh = based;
-                }
-            }
-            Some(signed) => {
-                mesh.tangents = Some(MeshTangents::from_signed(&mesh.normals, &unit_tangents(&signed)));
-                self.complete(&mut mesh);
+        if has_normals && has_tangents {
+            mesh.tangents = Some(MeshTangents::from_signed(&unit_normals(&vertices), &unit_tangents(&vertices)));
+            self.complete(&mut mesh);
+        } else {
+            self.complete(&mut mesh);
+            if wants_bases && let Some((based, _)) = mesh.with_bases(BasisFit::Orthogonal, None) {
+                mesh = based;
             }
         }
         self.note_single_sided(&mesh, &surface);
@@ -123,10 +134,10 @@ impl Reader<'_> {
     }
 
     /// The coordinates that the surface's textures take; a surface without them loses its textures.
-    fn texcoords(&mut self, mesh: &mut Mesh, surface: &mut Surface) -> Result<(), Error> {
+    fn texcoords(&mut self, mesh: &mut Mesh, surface: &mut Surface, count: usize) -> Result<(), Error> {
         let uv = surface.uv;
         let set = uv.map_or(0, |uv| uv.set);
-        match (self.vectors::<2>(Semantic::TexCoords(set), mesh.positions.len())?, uv) {
+        match (self.vectors::<2>(Semantic::TexCoords(set), count)?, uv) {
             (Some(found), Some(uv)) => mesh.texcoords = Some(found.into_iter().map(|at| uv.texcoord(at)).collect()),
             (Some(found), None) => {
                 mesh.texcoords = Some(found.into_iter().map(|[u, v]| [u as f32, (1.0 - v) as f32]).collect());
@@ -144,12 +155,6 @@ impl Reader<'_> {
     fn note_unread(&mut self) {
         if self.attribute(Semantic::Colors(0)).is_some() {
             self.note("colours", "the colours of its vertices are not drawn");
-        }
-        if self.primitive.targets.as_ref().is_some_and(|targets| !targets.is_empty()) {
-            self.note("morph", "its morph targets are not drawn");
-        }
-        if self.attribute(Semantic::Joints(0)).is_some() {
-            self.note("skin", "its skin is not drawn: it stands as it is bound");
         }
     }
 
@@ -194,12 +199,17 @@ fn singles(vectors: &[[f64; 3]]) -> Vec<[f32; 3]> {
 }
 
 /// Tangents of unit length, with a sense of 1 or -1.
-fn unit_tangents(signed: &[[f64; 4]]) -> Vec<[f32; 4]> {
+fn unit_tangents(vertices: &Vertices) -> Vec<[f32; 4]> {
     let unit = |[x, y, z, w]: &[f64; 4]| {
         let tangent = DVec3::new(*x, *y, *z).normalize_or_zero().as_vec3();
         [tangent.x, tangent.y, tangent.z, if *w < 0.0 { -1.0 } else { 1.0 }]
     };
-    signed.iter().map(unit).collect()
+    vertices.tangents.iter().map(unit).collect()
+}
+
+fn unit_normals(vertices: &Vertices) -> Vec<[f32; 3]> {
+    let unit = |normal: &[f64; 3]| DVec3::from_array(*normal).normalize_or_zero().as_vec3().to_array();
+    vertices.normals.iter().map(unit).collect()
 }
 
 /// Gives each triangle vertices of its own, with its own normal, as glTF wants it where normals are missing.

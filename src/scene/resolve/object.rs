@@ -10,10 +10,10 @@ use super::pose::WrittenPose;
 use super::{material, placement};
 use crate::geometry::md2::{NormalSource, Pose};
 use crate::geometry::tangents::BasisCounts;
-use crate::geometry::{Gloss, Material, Mesh, PlacedMesh, Texture, Wave};
+use crate::geometry::{Gloss, Material, Mesh, Moment, PlacedMesh, Texture, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
-use crate::scene::settings::{Origin, Plain, Settings, SettingsError};
+use crate::scene::settings::{Origin, Plain, Reader, Settings, SettingsError};
 use crate::scene::{Error, ModelSkin, Object, Shading};
 
 /// Resolves one object, each of its instances as an object of its own, and reads its photograph.
@@ -32,6 +32,7 @@ pub(in crate::scene) fn read(
     let world_from_file = placement::read(&mut reader)?;
     let instances = instances::read(&mut reader)?;
     let pose = WrittenPose::read(&mut reader, table.read())?;
+    let moment = moment(&mut reader)?;
     let wave = reader.table("wave")?.map(wave).transpose()?.flatten();
     let lit = reader.boolean("lit")?.unwrap_or(true);
     let casts_shadow = reader.boolean("casts_shadow")?.unwrap_or(true);
@@ -41,13 +42,14 @@ pub(in crate::scene) fn read(
     let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
     let photo = photo.flatten();
     let keys = ObjectKeys { name, world_from_file, wave, material, lit, casts_shadow, closed };
-    let found = match assets.placed(mesh, mesh_origin)? {
+    let found = match assets.placed(mesh, mesh_origin, moment.as_ref())? {
         Some(placed) => {
             pose.refuse()?;
             let is_single = placed.len() == 1;
             placed.into_iter().map(|placed| keys.found(placed, is_single)).collect()
         }
         None => {
+            table.read().refuse(&["at", "animation"], "belongs to animated models, .gltf or .glb")?;
             let (posed, pose) = assets.mesh(mesh, mesh_origin, &pose)?;
             let skin = || assets.skin(mesh, mesh_origin);
             let (material, skin) = with_skin(keys.material.clone(), &keys.name, skin);
@@ -68,6 +70,16 @@ pub(in crate::scene) fn read(
         }
     }
     Ok((objects, photo))
+}
+
+/// `at` and `animation`: a time of an animation of the object's file.
+pub(in crate::scene) fn moment(reader: &mut Reader<'_>) -> Result<Option<Moment>, SettingsError> {
+    let seconds = reader.number("at", 0.0..=LARGEST)?;
+    let animation = reader.string("animation")?.map(str::to_owned);
+    match (seconds, &animation) {
+        (None, Some(_)) => Err(reader.error("animation", "needs `at`: its time in seconds")),
+        (seconds, _) => Ok(seconds.map(|seconds| Moment { seconds, animation })),
+    }
 }
 
 /// Keys of an object, which all meshes of its file share.

@@ -64,7 +64,11 @@ const WRONG: [Wrong; 22] = [
         |j| j["accessors"][0]["sparse"] = json!({ "count": 1, "indices": { "bufferView": 3, "componentType": 5123, "byteOffset": 0 }, "values": { "bufferView": 77 } }),
         "accessors[0].sparse: names bufferViews[77]",
     ),
-    ("index", |j| j["accessors"][0]["count"] = json!(4), "elements for 4 vertices"),
+    (
+        "index",
+        |j| j["accessors"][0]["count"] = json!(4),
+        "indices: is 4 at element 2, and the primitive has 4 vertices",
+    ),
     (
         "buffer",
         |j| j["buffers"][0]["uri"] = json!("gone.bin"),
@@ -137,7 +141,7 @@ fn no_changed_byte_makes_the_reader_panic() {
         std::fs::write(&path, &changed).unwrap();
         match glumbra::load(&path, &[]) {
             Ok(_) => loaded += 1,
-            Err(error) => assert!(error.to_string().starts_with(&path.display().to_string()), "{error}"),
+            Err(error) => assert!(error.to_string().contains(&path.display().to_string()), "{error}"),
         }
     }
     assert!((100..1400).contains(&loaded), "{loaded} of 1500 load: the changes are too small or too large");

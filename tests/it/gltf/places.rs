@@ -69,7 +69,7 @@ fn a_name_is_a_node_with_all_below_it_or_a_mesh_in_its_own_space() {
     assert_eq!(places("turned")[0].1, leaf[0].1);
     assert_eq!(places("wedge"), [(String::from("it"), DMat4::IDENTITY)]);
     for (name, expected) in [
-        ("laef", "no node and no mesh is called \"laef\": did you mean \"leaf\""),
+        ("laef", "no node and no mesh is called \"laef\": did you mean `leaf`?"),
         ("empty", "no node at or below \"empty\""),
     ] {
         let path = folder.path().join("wrong.toml");
