@@ -14,10 +14,10 @@ use crate::geometry::{self, Bump, Mesh, Moment, Named, PlacedMesh, Texture, Worl
 use crate::math::Aabb;
 
 /// Ends of the names of files that have a mesh.
-pub(super) const MODELS: [&str; 4] = ["obj", "md2", "gltf", "glb"];
+pub(super) const MODELS: [&str; 6] = ["obj", "md2", "gltf", "glb", "ply", "stl"];
 
 /// [`MODELS`] in words.
-pub(super) const ENDINGS: &str = ".obj, .md2, .gltf or .glb";
+pub(super) const ENDINGS: &str = ".obj, .md2, .gltf, .glb, .ply or .stl";
 
 /// Those of files whose nodes place several meshes.
 const WORLDS: [&str; 2] = ["gltf", "glb"];
@@ -214,11 +214,15 @@ impl Assets {
             return Ok(model.clone());
         }
         let (model, warnings) = match embedded {
-            Some(_) if is_world(path) => return Err(geometry::Error::Embedded { path: path.to_owned() }),
+            Some(_) if is_world(path) || has_extension(path, "ply") || has_extension(path, "stl") => {
+                return Err(geometry::Error::Embedded { path: path.to_owned() });
+            }
             None if is_world(path) => {
                 let (world, warnings) = geometry::load_gltf(path, None)?;
                 (Model::World(Arc::new(world)), warnings)
             }
+            None if has_extension(path, "ply") => still(geometry::load_ply(path)?),
+            None if has_extension(path, "stl") => still(geometry::load_stl(path)?),
             Some(bytes) if has_extension(path, "md2") => key_framed(md2::Model::decode(path, bytes)?),
             None if has_extension(path, "md2") => key_framed(md2::Model::load(path)?),
             Some(bytes) => still(geometry::decode_obj(path, bytes)?),

@@ -1,6 +1,7 @@
 //! A glTF's mesh: its primitives joined, each a part with its material [Khronos, "glTF 2.0 Specification", 3.7].
 
 use glam::DVec3;
+use gltf::json::accessor::Type;
 use gltf::json::mesh::{Mode, Primitive, Semantic};
 use gltf::json::validation::Checked;
 use gltf::json::{Accessor, Index};
@@ -96,7 +97,7 @@ impl Reader<'_> {
             return Ok(None);
         }
         self.texcoords(&mut mesh, &mut surface, count)?;
-        self.note_unread();
+        mesh.colors = self.colors(count)?;
         let wants_bases = surface.material.bump.is_some();
         let tangents = if wants_bases { self.vectors::<4>(Semantic::Tangents, count)? } else { None };
         let normals = self.vectors::<3>(Semantic::Normals, count)?;
@@ -152,10 +153,22 @@ impl Reader<'_> {
         Ok(())
     }
 
-    fn note_unread(&mut self) {
-        if self.attribute(Semantic::Colors(0)).is_some() {
-            self.note("colours", "the colours of its vertices are not drawn");
-        }
+    /// Colours of the vertices, of which alpha is left out.
+    fn colors(&mut self, count: usize) -> Result<Option<Vec<[f32; 3]>>, Error> {
+        let Some((index, place)) = self.attribute(Semantic::Colors(0)) else { return Ok(None) };
+        let has_alpha = matches!(self.file.get(index, &place, "accessors")?.type_, Checked::Valid(Type::Vec4));
+        let rgb = match has_alpha {
+            true => {
+                let colors = self.vectors::<4>(Semantic::Colors(0), count)?.unwrap_or_default();
+                if colors.iter().any(|[.., alpha]| *alpha < 1.0) {
+                    self.note("alpha of colours", "the alpha of its vertices' colours is not drawn");
+                }
+                Some(colors.into_iter().map(|[red, green, blue, _]| [red, green, blue]).collect())
+            }
+            false => self.vectors::<3>(Semantic::Colors(0), count)?,
+        };
+        Ok(rgb
+            .map(|colors| singles(&colors).into_iter().map(|rgb| rgb.map(|channel| channel.clamp(0.0, 1.0))).collect()))
     }
 
     /// Both sides of all triangles are drawn: those of a closed mesh that look inwards are not seen.
@@ -217,6 +230,7 @@ fn flatten(mesh: &mut Mesh) {
     let old = std::mem::take(&mut mesh.indices);
     mesh.positions = old.iter().map(|index| mesh.positions[*index as usize]).collect();
     mesh.texcoords = mesh.texcoords.as_ref().map(|all| old.iter().map(|index| all[*index as usize]).collect());
+    mesh.colors = mesh.colors.as_ref().map(|all| old.iter().map(|index| all[*index as usize]).collect());
     mesh.indices = (0..old.len() as u32).collect();
     mesh.normals = Vec::with_capacity(old.len());
     for corners in mesh.positions.as_chunks::<3>().0 {
@@ -233,10 +247,11 @@ fn append(joined: &mut Mesh, part: Mesh, name: &str, file: &File) -> Result<(), 
     let first = u32::try_from(before + added).map_err(|_| too_large())? - added as u32;
     let start = joined.indices.len() as u32;
     let end = u32::try_from(joined.indices.len() + part.indices.len()).map_err(|_| too_large())?;
-    joined.texcoords = filled(joined.texcoords.take(), before, part.texcoords, added);
+    joined.texcoords = filled(joined.texcoords.take(), before, part.texcoords, added, 0.0);
+    joined.colors = filled(joined.colors.take(), before, part.colors, added, 1.0);
     let pair = |tangents: Option<MeshTangents>| tangents.map(|all| (all.tangents, all.bitangents)).unzip();
     let ((t, b), (more_t, more_b)) = (pair(joined.tangents.take()), pair(part.tangents));
-    let (t, b) = (filled(t, before, more_t, added), filled(b, before, more_b, added));
+    let (t, b) = (filled(t, before, more_t, added, 0.0), filled(b, before, more_b, added, 0.0));
     joined.tangents = t.zip(b).map(|(tangents, bitangents)| MeshTangents { tangents, bitangents });
     joined.positions.extend(part.positions);
     joined.normals.extend(part.normals);
@@ -254,17 +269,18 @@ fn append(joined: &mut Mesh, part: Mesh, name: &str, file: &File) -> Result<(), 
     Ok(())
 }
 
-/// Two arrays joined; one that is absent is zeros where the other is not.
+/// Two arrays joined; one that is missing is filled with `absent` where the other is not.
 fn filled<const N: usize>(
     before: Option<Vec<[f32; N]>>,
     length: usize,
     after: Option<Vec<[f32; N]>>,
     added: usize,
+    absent: f32,
 ) -> Option<Vec<[f32; N]>> {
     if before.is_none() && after.is_none() {
         return None;
     }
-    let mut all = before.unwrap_or_else(|| vec![[0.0; N]; length]);
-    all.extend(after.unwrap_or_else(|| vec![[0.0; N]; added]));
+    let mut all = before.unwrap_or_else(|| vec![[absent; N]; length]);
+    all.extend(after.unwrap_or_else(|| vec![[absent; N]; added]));
     Some(all)
 }

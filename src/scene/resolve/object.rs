@@ -25,9 +25,9 @@ pub(in crate::scene) fn read(
     assets: &mut Assets,
 ) -> Result<(Vec<Object>, Option<PhotoKeys>), Error> {
     let mut reader = table.read();
-    let (mesh, mesh_origin) = reader
-        .file("mesh")?
-        .ok_or_else(|| reader.missing("mesh", "a built-in mesh, or a file that ends in .obj, .md2, .gltf or .glb"))?;
+    let (mesh, mesh_origin) = reader.file("mesh")?.ok_or_else(|| {
+        reader.missing("mesh", "a built-in mesh, or a file that ends in .obj, .md2, .gltf, .glb, .ply or .stl")
+    })?;
     let name = reader.string("name")?.unwrap_or(mesh).to_owned();
     let world_from_file = placement::read(&mut reader)?;
     let instances = instances::read(&mut reader)?;

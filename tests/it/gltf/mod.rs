@@ -3,6 +3,7 @@
 mod glb;
 mod looks;
 mod malformed;
+mod motion;
 mod places;
 
 use std::path::Path;
