@@ -119,9 +119,12 @@ fn list(value: &Property) -> Option<Vec<i64>> {
 pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     let bytes = text::read(path)?;
     let wrong = |place: String, what: String| Error::Inside { path: path.to_owned(), place, what };
-    let broken = |error: &ParseError| match error.line() {
-        Some(line) => Error::malformed(path, line, error.to_string()),
-        None => wrong(String::from("PLY"), error.to_string()),
+    let broken = |error: &ParseError| {
+        // The first line alone: others repeat the file's text.
+        let (said, line) = (error.to_string(), error.line().unwrap_or(0));
+        let first = said.lines().next().unwrap_or_default();
+        let what = first.strip_prefix(&format!("Line {line}: ")).unwrap_or(first).to_owned();
+        if line > 0 { Error::malformed(path, line, what) } else { wrong(String::from("PLY"), what) }
     };
     let parser = Parser::<Row>::new();
     let mut reader = Reader::new(BufReader::new(&bytes[..]));

@@ -68,6 +68,7 @@ mod ranges;
 mod redraw;
 mod repack;
 mod report;
+mod scanned;
 mod scenes;
 #[cfg(unix)]
 mod setup;

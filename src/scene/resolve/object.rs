@@ -123,7 +123,11 @@ impl ObjectKeys {
                 "has a normal map, which lighting = \"per-vertex\" of [shading] cannot show: write a `material`";
             return Err(table.read().error("mesh", message));
         }
+        let has_own_bumps = material.is_none() && mesh.materials.iter().any(|own| own.bump.is_some());
         let (mesh, bases) = with_bases(mesh, material.as_deref(), shading, table)?;
+        let triangles = mesh.triangle_count();
+        let own_bases = || BasisCounts { triangles, from_mesh: true, ..BasisCounts::default() };
+        let bases = bases.or(has_own_bumps.then(own_bases));
         if self.closed {
             check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
         }
