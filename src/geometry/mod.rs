@@ -47,7 +47,7 @@ pub use text::read_text;
 pub(crate) use texture::find_file;
 pub use texture::{Texture, decode_texture, load_texture};
 pub use wave::Wave;
-pub use world::{LightShape, Moment, Named, PlacedCamera, PlacedLight, PlacedMesh, World};
+pub use world::{ModelWorld, Moment, Named, PlacedCamera, PlacedLight, PlacedMesh, PlacedShape};
 
 /// Defines the reader of a kind of file that a cargo feature brings, or refuses it where that is not compiled in.
 macro_rules! reader {
@@ -79,7 +79,7 @@ reader!(
     "gltf",
     "a .gltf or .glb file, its buffers and its pictures; `moment`: a time of an animation, absent: as the nodes stand",
     gltf,
-    World,
+    ModelWorld,
     moment: Option<&Moment>
 );
 reader!(load_ply, "ply", "a PLY file", ply, Mesh);

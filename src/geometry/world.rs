@@ -21,7 +21,7 @@ pub struct PlacedMesh {
 
 /// The scene of a file.
 #[derive(Clone, Debug, Default)]
-pub struct World {
+pub struct ModelWorld {
     /// In the order of the nodes, parents first; those without triangles are left out.
     pub meshes: Vec<PlacedMesh>,
     pub cameras: Vec<PlacedCamera>,
@@ -41,7 +41,7 @@ pub struct Moment {
     pub animation: Option<String>,
 }
 
-/// What a name in a file means.
+/// Meaning of a name in a file.
 #[derive(Clone, Debug)]
 pub enum Named {
     /// A node, with all below it, placed as the file places it; and the number of other nodes of that name.
@@ -85,12 +85,12 @@ pub struct PlacedLight {
     pub name: String,
     /// RGB, each at least 0.
     pub color: [f64; 3],
-    pub shape: LightShape,
+    pub shape: PlacedShape,
 }
 
 /// Place and reach of a light in world space.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum LightShape {
+pub enum PlacedShape {
     /// `cone_degrees`: the full angle of the cone at which it ends.
     Spot {
         position: DVec3,
@@ -105,7 +105,7 @@ pub enum LightShape {
     },
 }
 
-impl World {
+impl ModelWorld {
     /// Bounds of all meshes in the world.
     pub fn bounds(&self) -> Aabb {
         let corners = |placed: &PlacedMesh| {
@@ -115,7 +115,7 @@ impl World {
         Aabb::from_points(self.meshes.iter().flat_map(corners))
     }
 
-    /// What the name of a node or of a mesh means.
+    /// Finds the node or the mesh of a name.
     pub fn named(&self, wanted: &str) -> Named {
         let mut nodes = self.nodes.iter().filter(|(name, _)| name == wanted);
         if let Some((_, number)) = nodes.next() {

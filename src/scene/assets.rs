@@ -10,7 +10,7 @@ use super::{Error, ModelSkin};
 use crate::geometry::bump::NormalFormat;
 use crate::geometry::normal_map::{self, Difference, HeightField, HeightWrap, MipColors};
 use crate::geometry::tangents::BasisFit;
-use crate::geometry::{self, Bump, Mesh, Moment, Named, PlacedMesh, Texture, World, find_file, md2};
+use crate::geometry::{self, Bump, Mesh, ModelWorld, Moment, Named, PlacedMesh, Texture, find_file, md2};
 use crate::math::Aabb;
 
 /// Ends of the names of files that have a mesh.
@@ -29,7 +29,7 @@ pub(super) enum Model {
     Still(Arc<Mesh>),
     KeyFramed(Arc<md2::Model>),
     /// Meshes that nodes place.
-    World(Arc<World>),
+    World(Arc<ModelWorld>),
 }
 
 impl Model {
@@ -43,8 +43,8 @@ impl Model {
         }
     }
 
-    /// What the file places; `None`: a single mesh.
-    pub fn world(&self) -> Option<&Arc<World>> {
+    /// Meshes, cameras and lights that the file places; `None`: a single mesh.
+    pub fn world(&self) -> Option<&Arc<ModelWorld>> {
         if let Self::World(world) = self { Some(world) } else { None }
     }
 }
@@ -92,7 +92,7 @@ pub(super) struct Assets {
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
     /// Files whose nodes place meshes, at a time of an animation.
-    moments: HashMap<MomentKey, Arc<World>>,
+    moments: HashMap<MomentKey, Arc<ModelWorld>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
     /// Bump maps by all that their files and keys say.
     pub bumps: HashMap<BumpKey, Arc<Bump>>,
@@ -191,7 +191,7 @@ impl Assets {
     }
 
     /// A file whose nodes place meshes, at a time of an animation.
-    pub fn at(&mut self, path: &Path, moment: &Moment) -> Result<Arc<World>, geometry::Error> {
+    pub fn at(&mut self, path: &Path, moment: &Moment) -> Result<Arc<ModelWorld>, geometry::Error> {
         let key = (canonical(path), moment.seconds.to_bits(), moment.animation.clone());
         if let Some(known) = self.moments.get(&key) {
             return Ok(known.clone());

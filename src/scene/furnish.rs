@@ -5,14 +5,14 @@ use glam::DVec3;
 use super::default_scene::{array, entry, number, shadow, table, text, vector};
 use super::resolve::DEFAULT_SIZE;
 use super::settings::{Entry, Settings, Value};
-use crate::geometry::{LightShape, PlacedCamera, PlacedLight, World};
+use crate::geometry::{ModelWorld, PlacedCamera, PlacedLight, PlacedShape};
 
 /// The longest side of a picture that a file's camera has a shape for.
 const LONGEST_SIDE: f64 = 4096.0;
 
 /// Puts the file's cameras and lights in place of the supplied ones, if it has any. The picture is as high as one of any scene,
 /// and as wide as the first camera says.
-pub(super) fn with_world(root: &mut Settings, world: &World) {
+pub(super) fn with_world(root: &mut Settings, world: &ModelWorld) {
     if let [first, others @ ..] = &world.cameras[..] {
         let cameras = match others {
             [] => camera(first),
@@ -54,7 +54,7 @@ fn light(light: &PlacedLight) -> Entry {
     // Candela: it falls off with the square of the distance.
     let falls_off = || ("attenuation", vector(DVec3::Z));
     match light.shape {
-        LightShape::Spot { position, direction, cone_degrees } => keys.extend([
+        PlacedShape::Spot { position, direction, cone_degrees } => keys.extend([
             ("kind", text("spot")),
             ("position", vector(position)),
             ("target", vector(position + direction)),
@@ -62,10 +62,10 @@ fn light(light: &PlacedLight) -> Entry {
             ("shape", text("cone")),
             falls_off(),
         ]),
-        LightShape::Point { position } => {
+        PlacedShape::Point { position } => {
             keys.extend([("kind", text("point")), ("position", vector(position)), falls_off()])
         }
-        LightShape::Directional { direction } => {
+        PlacedShape::Directional { direction } => {
             keys.extend([("kind", text("directional")), ("direction", vector(direction))]);
         }
     }

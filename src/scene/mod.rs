@@ -63,7 +63,7 @@ pub use shadow::Shadow;
 #[doc(hidden)]
 pub use views::with_shadow;
 
-use crate::geometry::World;
+use crate::geometry::ModelWorld;
 use crate::math::Aabb;
 use assets::{Assets, has_extension, is_model};
 use settings::Plain;
@@ -220,7 +220,7 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let name = path.to_string_lossy();
     assets.also_known_as(&name, &model);
     let mut world = model.world().cloned();
-    let framed = |world: &Option<Arc<World>>, bounds: &Aabb, aspect: f64, floor: Floor| {
+    let framed = |world: &Option<Arc<ModelWorld>>, bounds: &Aabb, aspect: f64, floor: Floor| {
         let mut root = framing(&name, bounds, aspect, floor);
         world.iter().for_each(|world| furnish::with_world(&mut root, world));
         root

@@ -5,8 +5,9 @@ use std::path::Path;
 
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
-use glumbra::judge::colors::{draw_colors, errors_of, true_colors};
+use glumbra::judge::colors::{color_options, draw_colors, errors_of};
 use glumbra::scene::{Loaded, Scene};
+use glumbra::truth;
 
 use crate::support::random::Random;
 
@@ -164,13 +165,17 @@ fn colours_of_vertices_are_drawn_as_the_truth_has_them() {
     let folder = tempfile::tempdir().unwrap();
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
-    for overrides in [&[][..], &["shading.passes=shadow"], &["shading.lighting=per-fragment", "image.size=[200, 150]"]]
-    {
+    for overrides in [&[][..], &["shading.passes=shadow"], &["shading.ambient=[0.1, 0.5, 0.9]"]] {
         let path = folder.path().join("tent.ply");
         std::fs::write(&path, text_ply()).unwrap();
-        let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
+        let overrides: Vec<String> = [&["light.shadow={ technique = \"none\" }", "image.size=[200, 150]"], overrides]
+            .concat()
+            .iter()
+            .map(|text| (*text).to_owned())
+            .collect();
         let scene = glumbra::load(&path, &overrides).unwrap().scene;
-        let truth = true_colors(&scene, 0).unwrap();
+        // Without shadows: at the edges of a map's they are the map's errors.
+        let truth = truth::color(&scene, &[None], &color_options(&scene)).unwrap();
         let drawn = draw_colors(&scene, false, &mut renderer).unwrap();
         let (errors, _) = errors_of(&truth, &drawn).unwrap();
         assert!(errors.compared > truth.pixels.len() / 2, "{errors:?}");
@@ -205,6 +210,9 @@ fn wrong_files_are_one_error_that_names_the_place() {
     let ply = |from: &str, to: &str| String::from_utf8(text_ply()).unwrap().replacen(from, to, 1).into_bytes();
     let mut cut = binary_ply(true);
     cut.truncate(cut.len() - 3);
+    let mut unplaced = binary_ply(true);
+    let first = ply_header("binary_little_endian").len();
+    unplaced[first..first + 4].copy_from_slice(&f32::NAN.to_le_bytes());
     let mut short = binary_stl(b"x");
     short.truncate(short.len() - 3);
     let mut infinite = binary_stl(b"x");
@@ -212,10 +220,11 @@ fn wrong_files_are_one_error_that_names_the_place() {
     for (name, bytes, expected) in [
         ("a.ply", ply("4 0 1 5 4", "4 0 1 9 4"), "a.ply: face 0: names a vertex that is none of the 6"),
         ("b.ply", ply("4 0 1 5 4", "4 0 -1 5 4"), "b.ply: face 0: names a vertex"),
-        ("c.ply", ply("-1 0 1 255", "nan 0 1 255"), "c.ply: vertex 0: has a position that is not finite"),
+        ("c.ply", ply("-1 0 1 255", "nan 0 1 255"), "c.ply:15: "),
+        ("i.ply", unplaced, "i.ply: vertex 0: has a position that is not finite"),
         ("d.ply", ply("property float z", "property float depth"), "d.ply: vertex 0: has no x, y and z"),
         ("e.ply", ply("format ascii 1.0", "formt ascii 1.0"), "e.ply:2: "),
-        ("f.ply", ply("-1 0 1 255", "-1 0 one 255"), "f.ply:14: "),
+        ("f.ply", ply("-1 0 1 255", "-1 0 one 255"), "f.ply:15: "),
         ("g.ply", cut, "g.ply"),
         ("h.ply", Vec::new(), "h.ply: PLY: "),
         ("a.stl", short, "a.stl: triangle 7: cannot be read: "),
@@ -244,7 +253,12 @@ fn no_changed_byte_makes_the_readers_panic() {
             let mut changed = bytes.clone();
             for _ in 0..1 + random.below(3) {
                 let at = random.below(changed.len());
-                changed[at] = random.below(256) as u8;
+                let is_text = name.starts_with("t.");
+                changed[at] = if is_text {
+                    *b"0123456789.- \ne".get(random.below(16)).unwrap_or(&b'x')
+                } else {
+                    random.below(256) as u8
+                };
             }
             match written(folder.path(), name, &changed) {
                 Ok(_) => loaded += 1,

@@ -11,7 +11,7 @@ use gltf::json::{Camera, Index};
 
 use super::super::Error;
 use super::super::tally::WarningTally;
-use super::super::world::{LightShape, PlacedCamera, PlacedLight};
+use super::super::world::{PlacedCamera, PlacedLight, PlacedShape};
 use super::file::File;
 use super::nodes::Placed;
 
@@ -120,14 +120,14 @@ impl File {
         axes: &Axes,
         place: &str,
         odd: &mut WarningTally,
-    ) -> Result<LightShape, Error> {
+    ) -> Result<PlacedShape, Error> {
         let (position, direction) = (axes.place, -axes.backward);
         if light.range.is_some() {
             odd.note("range", &self.path, 0, || format!("{place}: its range is left out: it reaches farther"));
         }
         Ok(match (&light.type_, &light.spot) {
-            (Checked::Valid(LightType::Directional), _) => LightShape::Directional { direction },
-            (Checked::Valid(LightType::Point), _) => LightShape::Point { position },
+            (Checked::Valid(LightType::Directional), _) => PlacedShape::Directional { direction },
+            (Checked::Valid(LightType::Point), _) => PlacedShape::Point { position },
             (Checked::Valid(LightType::Spot), Some(spot)) => {
                 let (inner, outer) = (f64::from(spot.inner_cone_angle), f64::from(spot.outer_cone_angle));
                 if !(inner >= 0.0 && outer > inner && outer <= PI / 2.0 + 1e-6) {
@@ -141,7 +141,7 @@ impl File {
                     let what = || format!("{place}: its cone of {degrees} degrees is drawn as {cone_degrees}");
                     odd.note("cone", &self.path, 0, what);
                 }
-                LightShape::Spot { position, direction, cone_degrees }
+                PlacedShape::Spot { position, direction, cone_degrees }
             }
             (Checked::Valid(LightType::Spot), None) => return Err(self.error(place, "is a spotlight without `spot`")),
             (Checked::Invalid, _) => {

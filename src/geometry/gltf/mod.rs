@@ -21,7 +21,7 @@ use std::sync::Arc;
 use glam::DMat4;
 
 use super::tally::WarningTally;
-use super::{Error, Mesh, Moment, PlacedMesh, Warning, World};
+use super::{Error, Mesh, ModelWorld, Moment, PlacedMesh, Warning};
 use deform::Deform;
 use file::File;
 use material::Surface;
@@ -34,7 +34,7 @@ use texture::Pictures;
 /// # Errors
 ///
 /// A file that is not whole, that names what it does not have, or that needs an extension that is not read.
-pub(super) fn load(path: &Path, moment: Option<&Moment>) -> Result<(World, Vec<Warning>), Error> {
+pub(super) fn load(path: &Path, moment: Option<&Moment>) -> Result<(ModelWorld, Vec<Warning>), Error> {
     let file = File::load(path)?;
     let mut odd = WarningTally::default();
     extensions::check(&file.root, path, &mut odd)?;
@@ -46,7 +46,7 @@ pub(super) fn load(path: &Path, moment: Option<&Moment>) -> Result<(World, Vec<W
     let surfaces = surfaces.collect::<Result<Vec<_>, _>>()?;
     let shared = vec![None; file.root.meshes.len()];
     let mut meshes = Meshes { file: &file, surfaces, motion, shared, odd };
-    let mut world = World { cameras, lights, ..World::default() };
+    let mut world = ModelWorld { cameras, lights, ..ModelWorld::default() };
     for node in &placed {
         meshes.place(node, &placed, &mut world)?;
     }
@@ -71,7 +71,7 @@ struct Meshes<'a> {
 
 impl Meshes<'_> {
     /// Adds a node to the world, with the mesh that it has.
-    fn place(&mut self, node: &Placed, placed: &[Placed], world: &mut World) -> Result<(), Error> {
+    fn place(&mut self, node: &Placed, placed: &[Placed], world: &mut ModelWorld) -> Result<(), Error> {
         let file = self.file;
         let name = file.node_name(node.node);
         world.nodes.push((name.clone(), node.node));
