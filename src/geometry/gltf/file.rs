@@ -59,7 +59,7 @@ impl File {
         inside(&self.path, place, what)
     }
 
-    /// What an index means.
+    /// Finds the entry that an index names.
     pub fn get<T>(&self, index: Index<T>, place: &str, list: &str) -> Result<&T, Error>
     where
         Root: Get<T>,

@@ -11,7 +11,7 @@ use super::super::{Error, Moment};
 use super::accessor::{FLOATS, NUMBERS};
 use super::file::File;
 
-/// What an animation sets of a node.
+/// Values that an animation sets of a node.
 #[derive(Clone, Debug, Default)]
 pub(super) struct NodeMotion {
     pub translation: Option<[f64; 3]>,

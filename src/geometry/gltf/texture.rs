@@ -42,7 +42,7 @@ impl Uv {
     }
 }
 
-/// What `textureInfo` of any kind says.
+/// A `textureInfo` of any kind.
 pub(super) struct Info<'a> {
     pub index: Index<gltf::json::Texture>,
     pub set: u32,
