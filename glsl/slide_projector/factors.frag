@@ -8,6 +8,9 @@ uniform vec3 own_color;
 #ifdef DECAL
 uniform sampler2D decal_map;
 #endif
+#ifdef VERTEX_COLORS
+in vec3 own_vertex_color;
+#endif
 
 EXACT out vec4 fragment;
 
@@ -35,6 +38,9 @@ void main()
 #endif
 #ifdef DECAL
     color *= texture(decal_map, DECAL_ST).rgb;
+#endif
+#ifdef VERTEX_COLORS
+    color *= own_vertex_color;
 #endif
 #ifdef PHOTOGRAPH
     // A photograph as it is: no light but 1, and its colour in place of the surface's own.

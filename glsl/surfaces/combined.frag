@@ -19,6 +19,9 @@ uniform sampler2D decal_map;
 #ifdef GLOSS_MAP
 uniform sampler2D gloss_map;
 #endif
+#ifdef VERTEX_COLORS
+in vec3 own_vertex_color;
+#endif
 
 out vec4 fragment;
 
@@ -63,6 +66,9 @@ void main()
     vec4 tex3 = texture(decal_map, DECAL_ST);
 #else
     vec4 tex3 = vec4(1.0);
+#endif
+#ifdef VERTEX_COLORS
+    tex3.rgb *= own_vertex_color;
 #endif
 #ifdef GLOSS_MAP
     tex3.a = texture(gloss_map, st).GLOSS_MAP;

@@ -4,6 +4,9 @@ uniform sampler2D decal_map;
 #ifdef GLOSS_MAP
 uniform sampler2D gloss_map;
 #endif
+#ifdef VERTEX_COLORS
+in vec3 own_vertex_color;
+#endif
 
 EXACT out vec4 fragment;
 
@@ -24,6 +27,9 @@ void main()
 #ifdef DECAL
     vec4 decal = texture(decal_map, DECAL_ST);
     color *= decal.rgb;
+#endif
+#ifdef VERTEX_COLORS
+    color *= own_vertex_color;
 #endif
 #ifdef SPECULAR
 #ifdef GLOSS_DECAL

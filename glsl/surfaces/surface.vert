@@ -19,6 +19,10 @@ out vec3 eye_position;
 #ifdef EYE_NORMAL
 out vec3 eye_normal;
 #endif
+#ifdef VERTEX_COLORS
+layout(location = 5) in vec3 vertex_color;
+out vec3 own_vertex_color;
+#endif
 #ifdef CLIP_PLANES
 // Half-spaces in eye space; what is kept has a product >= 0.
 uniform vec4 clip_planes[CLIP_PLANES];
@@ -30,6 +34,9 @@ void main()
     set_position();
 #ifdef DECAL_COORDINATES
     set_decal();
+#endif
+#ifdef VERTEX_COLORS
+    own_vertex_color = vertex_color;
 #endif
 #ifdef EYE_SPACE
     vec4 eye = eye_from_model * model_position;

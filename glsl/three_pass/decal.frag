@@ -5,6 +5,9 @@ uniform sampler2D decal_map;
 #ifdef GLOSS_MAP
 uniform sampler2D gloss_map;
 #endif
+#ifdef VERTEX_COLORS
+in vec3 own_vertex_color;
+#endif
 
 out vec4 fragment;
 
@@ -14,6 +17,9 @@ void main()
     fragment = texture(decal_map, DECAL_ST);
 #else
     fragment = vec4(1.0);
+#endif
+#ifdef VERTEX_COLORS
+    fragment.rgb *= own_vertex_color;
 #endif
 #ifdef GLOSS_MAP
     fragment.a = texture(gloss_map, st).GLOSS_MAP;

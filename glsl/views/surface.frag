@@ -14,6 +14,9 @@ uniform vec3 own_color;
 #ifdef GLOSS_MAP
 uniform sampler2D gloss_map;
 #endif
+#ifdef VERTEX_COLORS
+in vec3 own_vertex_color;
+#endif
 
 out vec4 fragment;
 
@@ -37,6 +40,9 @@ void main()
     color = own_color;
 #ifdef DECAL
     color *= texture(decal_map, DECAL_ST).rgb;
+#endif
+#ifdef VERTEX_COLORS
+    color *= own_vertex_color;
 #endif
 #endif
 #ifdef GLOSS_DECAL

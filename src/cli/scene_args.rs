@@ -27,19 +27,25 @@ pub struct SceneChanges {
     #[arg(long, value_name = "NAME")]
     camera: Option<String>,
 
+    /// Draws animated models (.gltf, .glb) at this time of their first animation, or of the one that `animation` of the object
+    /// names; absent: as they stand
+    #[arg(long, value_name = "SECONDS")]
+    at: Option<f64>,
+
     /// Supplies no floor under a model
     #[arg(long)]
     no_floor: bool,
 }
 
 impl SceneChanges {
-    /// The overrides in order: size and floor first, the choice of a camera last.
+    /// The overrides in order: size, floor and time first, the choice of a camera last.
     pub fn overrides(&self) -> Vec<String> {
         let size = self.size.map(|[width, height]| format!("image.size=[{width}, {height}]"));
         let floor = self.no_floor.then(|| String::from("floor=false"));
         let camera =
             self.camera.as_ref().map(|name| format!("camera={}", scene::Value::String(name.clone()).to_toml()));
-        size.into_iter().chain(floor).chain(self.set.iter().cloned()).chain(camera).collect()
+        let at = self.at.map(|seconds| format!("at={}", scene::Value::Float(seconds).to_toml()));
+        size.into_iter().chain(floor).chain(at).chain(self.set.iter().cloned()).chain(camera).collect()
     }
 
     /// Loads the file `scene` with these changes, and prints its warnings; where that takes long, a bar shows how far it is.
@@ -75,7 +81,7 @@ impl SceneChanges {
 /// The scene, and changes to it.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
-    /// A scene (.toml; - is one on standard input), or a model (.obj, .md2) around which a floor, a spotlight and a camera
+    /// A scene (.toml; - is one on standard input), or a model (.obj, .md2, .gltf, .glb, .ply, .stl) around which a floor, a spotlight and a camera
     /// are supplied
     pub scene: PathBuf,
 

@@ -91,6 +91,10 @@ impl GpuMesh {
                 Some(texcoords) => bytemuck::cast_slice(texcoords),
                 None => return Ok(None),
             },
+            Attribute::Color => match &self.mesh.colors {
+                Some(colors) => bytemuck::cast_slice(colors),
+                None => return Ok(None),
+            },
             Attribute::Tangent | Attribute::Bitangent => match &self.mesh.tangents {
                 Some(directions) if attribute == Attribute::Tangent => bytemuck::cast_slice(&directions.tangents),
                 Some(directions) => bytemuck::cast_slice(&directions.bitangents),

@@ -120,7 +120,7 @@ impl FixedFunction {
                 match attribute {
                     Attribute::Position => fixed.VertexPointer(3, float, 0, std::ptr::null()),
                     Attribute::Normal => fixed.NormalPointer(float, 0, std::ptr::null()),
-                    Attribute::Texcoord | Attribute::Tangent | Attribute::Bitangent => {}
+                    Attribute::Texcoord | Attribute::Tangent | Attribute::Bitangent | Attribute::Color => {}
                 }
                 if *attribute == Attribute::Texcoord {
                     for (unit, _) in mesh_units(layer) {
@@ -213,6 +213,6 @@ fn array(attribute: Attribute) -> Option<u32> {
         Attribute::Position => Some(raw::VERTEX_ARRAY),
         Attribute::Normal => Some(raw::NORMAL_ARRAY),
         Attribute::Texcoord => Some(raw::TEXTURE_COORD_ARRAY),
-        Attribute::Tangent | Attribute::Bitangent => None,
+        Attribute::Tangent | Attribute::Bitangent | Attribute::Color => None,
     }
 }

@@ -16,6 +16,14 @@ pub enum Error {
     Malformed { path: PathBuf, line: usize, what: String },
     #[error("{}: at byte {offset}: {what}", path.display())]
     MalformedAt { path: PathBuf, offset: usize, what: String },
+    #[error("{}: {place}: {what}", path.display())]
+    Inside { path: PathBuf, place: String, what: String },
+    #[error("{}: the scene has no triangles{why}", path.display())]
+    NoTriangles { path: PathBuf, why: String },
+    #[error("{}: this build does not read it: enable glumbra's cargo feature `{feature}`", path.display())]
+    NotBuilt { path: PathBuf, feature: &'static str },
+    #[error("{}: cannot be part of a program: it is read from its own file alone", path.display())]
+    Embedded { path: PathBuf },
     #[error("{}: has no faces of three vertices or more", path.display())]
     NoFaces { path: PathBuf },
     #[error("{}: has more than {} {what}", path.display(), u32::MAX)]

@@ -9,7 +9,7 @@ use crate::math::Aabb;
 
 /// An indexed triangle mesh in its own (model) space.
 ///
-/// `positions`, `normals` and, where present, `texcoords` have the same length; `indices` holds three
+/// `positions`, `normals` and, where present, `texcoords` and `colors` have the same length; `indices` holds three
 /// entries a triangle, each below that length. All values are finite.
 ///
 /// A mesh of lines has two entries of `indices` for each segment; only the draw that uses it says so. Nothing that loads or
@@ -28,6 +28,8 @@ pub struct Mesh {
     pub normals: Vec<[f32; 3]>,
     /// (s, t), t upwards as in GL and OBJ.
     pub texcoords: Option<Vec<[f32; 2]>>,
+    /// Colours of the vertices, RGB in [0, 1], which multiply every material's ambient and diffuse colour; `None`: none.
+    pub colors: Option<Vec<[f32; 3]>>,
     /// Directions of s and t at the vertices, for bump maps; `None`: the mesh has none, or no bump map needs them.
     pub tangents: Option<MeshTangents>,
     pub indices: Vec<u32>,

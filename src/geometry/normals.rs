@@ -222,6 +222,9 @@ fn push_copy(mesh: &mut Mesh, vertex: u32, normal: [f32; 3]) -> u32 {
     if let Some(texcoords) = &mut mesh.texcoords {
         texcoords.push(texcoords[vertex as usize]);
     }
+    if let Some(colors) = &mut mesh.colors {
+        colors.push(colors[vertex as usize]);
+    }
     if let Some(tangents) = &mut mesh.tangents {
         tangents.tangents.push(tangents.tangents[vertex as usize]);
         tangents.bitangents.push(tangents.bitangents[vertex as usize]);

@@ -132,6 +132,7 @@ impl Mesh {
         }
         mesh.positions = old.iter().map(|index| self.positions[*index]).collect();
         mesh.texcoords = self.texcoords.as_ref().map(|all| old.iter().map(|index| all[*index]).collect());
+        mesh.colors = self.colors.as_ref().map(|all| old.iter().map(|index| all[*index]).collect());
         mesh.indices = indices;
         mesh.tangents = Some(directions);
         // Also those that a vertex's normal lies in.

@@ -66,6 +66,7 @@ impl Mesh {
                 .texcoords
                 .as_ref()
                 .map(|texcoords| old_from_new.iter().map(|old| texcoords[*old]).collect()),
+            colors: self.colors.as_ref().map(|colors| old_from_new.iter().map(|old| colors[*old]).collect()),
             tangents: self.tangents.as_ref().map(|tangents| tangents.picked(&old_from_new)),
             indices,
             parts: self.parts.clone(),

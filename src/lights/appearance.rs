@@ -14,8 +14,8 @@ pub struct Appearance<'a> {
     pub lit: bool,
     /// True if a wave moves its vertices in the vertex stage.
     pub waves: bool,
-    /// True if its mesh has texture coordinates, or tangents and bitangents.
-    pub mesh_has: [bool; 2],
+    /// True if its mesh has texture coordinates, tangents and bitangents, or colours of its vertices.
+    pub mesh_has: [bool; 3],
 }
 
 impl<'a> Appearance<'a> {
@@ -32,6 +32,11 @@ impl<'a> Appearance<'a> {
     /// Tests whether its mesh has tangents and bitangents.
     pub fn has_bases(&self) -> bool {
         self.mesh_has[1]
+    }
+
+    /// Tests whether colours of its vertices multiply those of its material.
+    pub fn has_colors(&self) -> bool {
+        self.mesh_has[2]
     }
 
     /// The decal, where there are coordinates for it.
@@ -54,9 +59,9 @@ impl<'a> Appearance<'a> {
         self.decal().is_some() && self.material.decal_joins_alpha_test()
     }
 
-    fn key(&self) -> (*const Material, [bool; 4]) {
-        let [texcoords, bases] = self.mesh_has;
-        (Arc::as_ptr(self.material), [self.lit, self.waves, texcoords, bases])
+    fn key(&self) -> (*const Material, [bool; 5]) {
+        let [texcoords, bases, colors] = self.mesh_has;
+        (Arc::as_ptr(self.material), [self.lit, self.waves, texcoords, bases, colors])
     }
 }
 

@@ -294,6 +294,7 @@ struct Corner {
     clip: DVec4,
     normal: Vec3,
     texcoord: Vec2,
+    color: Vec3,
     /// Tangent and bitangent.
     tangents: [Vec3; 2],
 }
@@ -306,6 +307,7 @@ impl Corner {
             clip: *clip_from_model * position.extend(1.0),
             normal: mesh.normals.get(index).copied().map_or(Vec3::Z, Vec3::from_array),
             texcoord: mesh.texcoords.as_ref().map_or(Vec2::ZERO, |all| Vec2::from_array(all[index])),
+            color: mesh.colors.as_ref().map_or(Vec3::ONE, |all| Vec3::from_array(all[index])),
             tangents: mesh.tangents.as_ref().map_or([Vec3::ZERO; 2], |all| {
                 [&all.tangents, &all.bitangents].map(|all| Vec3::from_array(all[index]))
             }),
@@ -323,6 +325,7 @@ impl Corner {
             clip: self.clip.lerp(other.clip, share),
             normal: self.normal.lerp(other.normal, share as f32),
             texcoord: self.texcoord.lerp(other.texcoord, share as f32),
+            color: self.color.lerp(other.color, share as f32),
             tangents: [0, 1].map(|k: usize| self.tangents[k].lerp(other.tangents[k], share as f32)),
         }
     }
@@ -351,6 +354,7 @@ fn made(source: &Mesh, corners: &[[Corner; 3]], origin: DVec3) -> Mesh {
         positions: all().map(|corner| (corner.position - origin).as_vec3().to_array()).collect(),
         normals: all().map(|corner| corner.normal.to_array()).collect(),
         texcoords: source.texcoords.is_some().then(|| all().map(|corner| corner.texcoord.to_array()).collect()),
+        colors: source.colors.is_some().then(|| all().map(|corner| corner.color.to_array()).collect()),
         tangents: source.tangents.is_some().then(|| MeshTangents {
             tangents: all().map(|corner| corner.tangents[0].to_array()).collect(),
             bitangents: all().map(|corner| corner.tangents[1].to_array()).collect(),

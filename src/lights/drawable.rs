@@ -172,7 +172,7 @@ impl Drawable {
 
     /// All that decides how its fragments look, wherever it is placed.
     pub fn appearance(&self) -> Appearance<'_> {
-        let mesh_has = [self.mesh.texcoords.is_some(), self.mesh.tangents.is_some()];
+        let mesh_has = [self.mesh.texcoords.is_some(), self.mesh.tangents.is_some(), self.mesh.colors.is_some()];
         Appearance { material: &self.material, lit: self.lit, waves: self.wave.is_some(), mesh_has }
     }
 

@@ -64,11 +64,14 @@ pub enum Attribute {
     Tangent = 3,
     /// `bitangent`, vec3.
     Bitangent = 4,
+    /// `vertex_color`, vec3.
+    Color = 5,
 }
 
 impl Attribute {
     /// All of them, by location.
-    pub const ALL: [Self; 5] = [Self::Position, Self::Normal, Self::Texcoord, Self::Tangent, Self::Bitangent];
+    pub const ALL: [Self; 6] =
+        [Self::Position, Self::Normal, Self::Texcoord, Self::Tangent, Self::Bitangent, Self::Color];
 
     /// The name in GLSL.
     pub fn name(self) -> &'static str {
@@ -78,13 +81,14 @@ impl Attribute {
             Self::Texcoord => "texcoord",
             Self::Tangent => "tangent",
             Self::Bitangent => "bitangent",
+            Self::Color => "vertex_color",
         }
     }
 
     /// Number of floats for each vertex.
     pub fn components(self) -> i32 {
         match self {
-            Self::Position | Self::Normal | Self::Tangent | Self::Bitangent => 3,
+            Self::Position | Self::Normal | Self::Tangent | Self::Bitangent | Self::Color => 3,
             Self::Texcoord => 2,
         }
     }

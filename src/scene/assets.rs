@@ -10,10 +10,17 @@ use super::{Error, ModelSkin};
 use crate::geometry::bump::NormalFormat;
 use crate::geometry::normal_map::{self, Difference, HeightField, HeightWrap, MipColors};
 use crate::geometry::tangents::BasisFit;
-use crate::geometry::{self, Bump, Mesh, Texture, find_file, md2};
+use crate::geometry::{self, Bump, Mesh, ModelWorld, Moment, Named, PlacedMesh, Texture, find_file, md2};
+use crate::math::Aabb;
 
 /// Ends of the names of files that have a mesh.
-pub(super) const MODELS: [&str; 2] = ["obj", "md2"];
+pub(super) const MODELS: [&str; 6] = ["obj", "md2", "gltf", "glb", "ply", "stl"];
+
+/// [`MODELS`] in words.
+pub(super) const ENDINGS: &str = ".obj, .md2, .gltf, .glb, .ply or .stl";
+
+/// Those of files whose nodes place several meshes.
+const WORLDS: [&str; 2] = ["gltf", "glb"];
 
 /// The model of a file or of a built-in name.
 #[derive(Clone)]
@@ -21,15 +28,24 @@ pub(super) enum Model {
     /// One pose.
     Still(Arc<Mesh>),
     KeyFramed(Arc<md2::Model>),
+    /// Meshes that nodes place.
+    World(Arc<ModelWorld>),
 }
 
 impl Model {
-    /// The mesh, in its first frame.
-    pub fn first(&self) -> Arc<Mesh> {
+    /// Bounds in the file's space, of the first frame.
+    pub fn bounds(&self) -> Aabb {
+        let whole = |mesh: &Mesh| Aabb { min: mesh.bounds.min + mesh.origin, max: mesh.bounds.max + mesh.origin };
         match self {
-            Self::Still(mesh) => mesh.clone(),
-            Self::KeyFramed(model) => Arc::new(model.mesh(&md2::Pose::default(), md2::NormalSource::File)),
+            Self::Still(mesh) => whole(mesh),
+            Self::KeyFramed(model) => whole(&model.mesh(&md2::Pose::default(), md2::NormalSource::File)),
+            Self::World(world) => world.bounds(),
         }
+    }
+
+    /// Meshes, cameras and lights that the file places; `None`: a single mesh.
+    pub fn world(&self) -> Option<&Arc<ModelWorld>> {
+        if let Self::World(world) = self { Some(world) } else { None }
     }
 }
 
@@ -62,6 +78,9 @@ pub(super) type Posed = (Arc<Mesh>, Option<(md2::Pose, md2::NormalSource)>);
 /// A pose of a file's model, bit for bit.
 type PoseKey = (PathBuf, [usize; 2], u64, md2::NormalSource);
 
+/// A file at a time, bit for bit, of an animation.
+type MomentKey = (PathBuf, u64, Option<String>);
+
 /// Files in memory, each by its name.
 type Files = &'static [(&'static str, &'static [u8])];
 
@@ -72,6 +91,8 @@ pub(super) struct Assets {
     models: HashMap<PathBuf, Model>,
     /// Meshes of key-framed models.
     poses: HashMap<PoseKey, Arc<Mesh>>,
+    /// Files whose nodes place meshes, at a time of an animation.
+    moments: HashMap<MomentKey, Arc<ModelWorld>>,
     textures: HashMap<PathBuf, Arc<Texture>>,
     /// Bump maps by all that their files and keys say.
     pub bumps: HashMap<BumpKey, Arc<Bump>>,
@@ -100,7 +121,7 @@ impl Assets {
             None => {
                 let hint = suggest(name, geometry::PRIMITIVES.iter().copied());
                 let message =
-                    format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in .obj or .md2");
+                    format!("no mesh \"{name}\": neither built in ({hint}) nor a file that ends in {ENDINGS}");
                 return Err(SettingsError::new(origin, message).into());
             }
         };
@@ -109,6 +130,7 @@ impl Assets {
                 pose.refuse()?;
                 Ok((mesh, None))
             }
+            Model::World(_) => Err(SettingsError::new(origin, format!("\"{name}\" is no single mesh")).into()),
             Model::KeyFramed(model) => {
                 let (pose, source) = pose.resolve(&model)?;
                 let key = (canonical(&path), pose.frames, pose.blend.to_bits(), source);
@@ -118,11 +140,67 @@ impl Assets {
         }
     }
 
+    /// The meshes of `name`, a file whose nodes place them, or one of its nodes or meshes, `file#name`; `None`: it is a file
+    /// of another kind, or none.
+    pub fn placed(
+        &mut self,
+        name: &str,
+        origin: &Origin,
+        moment: Option<&Moment>,
+    ) -> Result<Option<Vec<PlacedMesh>>, Error> {
+        let (of_file, part) = split_part(name);
+        let path = file(of_file, origin);
+        if !is_world(&path) {
+            return Ok(None);
+        }
+        let bytes = embedded(self.files, of_file, origin);
+        let model = self.model_in(&path, bytes).map_err(|source| Error::Asset { origin: origin.clone(), source })?;
+        let Model::World(still) = model else { return Ok(None) };
+        let world = match moment {
+            None => still,
+            Some(moment) => {
+                let world = self.at(&path, moment);
+                world.map_err(|source| Error::Asset { origin: origin.clone(), source })?
+            }
+        };
+        let Some(part) = part else { return Ok(Some(world.meshes.clone())) };
+        let refuse = |what: String| Err(SettingsError::new(origin, format!("{}: {what}", path.display())).into());
+        match world.named(part) {
+            Named::Node(meshes, _) if meshes.is_empty() => {
+                refuse(format!("no node at or below \"{part}\" has a mesh of triangles"))
+            }
+            Named::Node(meshes, others) => {
+                if others > 0 {
+                    self.warn(format!("{origin}: {others} other nodes of {} are called \"{part}\"", path.display()));
+                }
+                Ok(Some(meshes))
+            }
+            Named::Mesh(mesh) => Ok(Some(vec![mesh])),
+            Named::Unknown(names) => {
+                let hint = suggest(part, names.iter().map(String::as_str));
+                refuse(format!("no node and no mesh is called \"{part}\": {hint}"))
+            }
+        }
+    }
+
     /// Keeps a warning, once.
     pub fn warn(&mut self, warning: String) {
         if !self.warnings.contains(&warning) {
             self.warnings.push(warning);
         }
+    }
+
+    /// A file whose nodes place meshes, at a time of an animation.
+    pub fn at(&mut self, path: &Path, moment: &Moment) -> Result<Arc<ModelWorld>, geometry::Error> {
+        let key = (canonical(path), moment.seconds.to_bits(), moment.animation.clone());
+        if let Some(known) = self.moments.get(&key) {
+            return Ok(known.clone());
+        }
+        // What is odd about the file was said when it was read first.
+        let (world, _) = geometry::load_gltf(path, Some(moment))?;
+        let world = Arc::new(world);
+        self.moments.insert(key, world.clone());
+        Ok(world)
     }
 
     /// A file's model.
@@ -136,6 +214,15 @@ impl Assets {
             return Ok(model.clone());
         }
         let (model, warnings) = match embedded {
+            Some(_) if is_world(path) || has_extension(path, "ply") || has_extension(path, "stl") => {
+                return Err(geometry::Error::Embedded { path: path.to_owned() });
+            }
+            None if is_world(path) => {
+                let (world, warnings) = geometry::load_gltf(path, None)?;
+                (Model::World(Arc::new(world)), warnings)
+            }
+            None if has_extension(path, "ply") => still(geometry::load_ply(path)?),
+            None if has_extension(path, "stl") => still(geometry::load_stl(path)?),
             Some(bytes) if has_extension(path, "md2") => key_framed(md2::Model::decode(path, bytes)?),
             None if has_extension(path, "md2") => key_framed(md2::Model::load(path)?),
             Some(bytes) => still(geometry::decode_obj(path, bytes)?),
@@ -240,6 +327,25 @@ fn canonical(path: &Path) -> PathBuf {
 /// Tests whether `path` ends as a model's does.
 pub(super) fn is_model(path: &Path) -> bool {
     MODELS.iter().any(|extension| has_extension(path, extension))
+}
+
+/// Tests whether `path` ends as a file's does whose nodes place meshes.
+fn is_world(path: &Path) -> bool {
+    WORLDS.iter().any(|extension| has_extension(path, extension))
+}
+
+/// Tests whether the mesh of this name may have animations.
+pub(super) fn is_animated(mesh: &str) -> bool {
+    is_world(Path::new(split_part(mesh).0))
+}
+
+/// The file's name, and the node's or mesh's behind it: `room.glb#Chair`.
+pub(super) fn split_part(name: &str) -> (&str, Option<&str>) {
+    let mut marks = name.match_indices('#').map(|(at, _)| at);
+    match marks.find(|at| is_world(Path::new(&name[..*at]))) {
+        Some(at) => (&name[..at], Some(&name[at + 1..])),
+        None => (name, None),
+    }
 }
 
 /// Tests whether `path` ends in `.extension`, in whatever case.

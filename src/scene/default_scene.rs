@@ -138,15 +138,6 @@ impl Stage {
     }
 
     fn light(&self) -> Entry {
-        // GL_LINEAR reaches up to a texel away along each axis, where a plane is up to two slopes nearer.
-        let offset = vec![("factor", number(2.0)), ("units", number(4.0))];
-        let shadow = vec![
-            ("technique", text("shadow-map")),
-            ("size", entry(Value::Integer(1024))),
-            ("format", text("depth24")),
-            ("filter", text("linear")),
-            ("offset", table("light.shadow.offset", offset)),
-        ];
         table(
             "light",
             vec![
@@ -155,7 +146,7 @@ impl Stage {
                 ("target", vector(self.center)),
                 ("cone", number(CONE_DEGREES)),
                 ("shape", text("cone")),
-                ("shadow", table("light.shadow", shadow)),
+                ("shadow", shadow()),
             ],
         )
     }
@@ -175,6 +166,20 @@ impl Stage {
             ],
         )
     }
+}
+
+/// Shadow settings of a supplied light.
+pub(super) fn shadow() -> Entry {
+    // GL_LINEAR reaches up to a texel away along each axis, where a plane is up to two slopes nearer.
+    let offset = vec![("factor", number(2.0)), ("units", number(4.0))];
+    let shadow = vec![
+        ("technique", text("shadow-map")),
+        ("size", entry(Value::Integer(1024))),
+        ("format", text("depth24")),
+        ("filter", text("linear")),
+        ("offset", table("light.shadow.offset", offset)),
+    ];
+    table("light.shadow", shadow)
 }
 
 fn image() -> Entry {
@@ -210,27 +215,27 @@ fn shortest(value: f64) -> f64 {
     (value as f32).to_string().parse().unwrap_or(value) + 0.0
 }
 
-fn entry(value: Value) -> Entry {
+pub(super) fn entry(value: Value) -> Entry {
     Entry { value, origin: Origin::BuiltIn }
 }
 
-fn text(text: &str) -> Entry {
+pub(super) fn text(text: &str) -> Entry {
     entry(Value::String(text.to_owned()))
 }
 
-fn number(value: f64) -> Entry {
+pub(super) fn number(value: f64) -> Entry {
     entry(Value::Float(value))
 }
 
-fn vector(vector: DVec3) -> Entry {
+pub(super) fn vector(vector: DVec3) -> Entry {
     array(vector.to_array().map(number).to_vec())
 }
 
-fn array(items: Vec<Entry>) -> Entry {
+pub(super) fn array(items: Vec<Entry>) -> Entry {
     entry(Value::Array(items))
 }
 
-fn table(path: &str, entries: Vec<(&str, Entry)>) -> Entry {
+pub(super) fn table(path: &str, entries: Vec<(&str, Entry)>) -> Entry {
     entry(Value::Table(settings(path, entries)))
 }
 

@@ -17,7 +17,7 @@ pub enum Error {
     Read { path: PathBuf, reason: io::Error },
 
     /// The path is that of a folder.
-    #[error("{path}: is a folder; name a scene (.toml) or a model (.obj, .md2)", path = .path.display())]
+    #[error("{path}: is a folder; name a scene (.toml) or a model (.obj, .md2, .gltf, .glb, .ply, .stl)", path = .path.display())]
     Folder { path: PathBuf },
 
     /// The file is longer than any of its kind.
@@ -25,7 +25,7 @@ pub enum Error {
     TooLong { path: PathBuf, bytes: u64, limit: u64 },
 
     /// The file's name has none of the known endings.
-    #[error("{path}: cannot tell what this is: a scene ends in .toml, a model in .obj or .md2", path = .path.display())]
+    #[error("{path}: cannot tell what this is: a scene ends in .toml, a model in .obj, .md2, .gltf, .glb, .ply or .stl", path = .path.display())]
     UnknownKind { path: PathBuf },
 
     /// A byte of the file is not UTF-8.

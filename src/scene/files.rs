@@ -2,7 +2,7 @@
 
 use std::path::{Path, PathBuf};
 
-use super::assets::file;
+use super::assets::{file, split_part};
 use super::settings::{Settings, Value};
 use super::{Error, Origin};
 use crate::geometry;
@@ -59,6 +59,9 @@ fn is_decal_alpha(key: &str, name: &str) -> bool {
 }
 
 fn absolute(path: &Path) -> Result<String, Error> {
+    if let Some((file, Some(part))) = path.to_str().map(split_part) {
+        return Ok(format!("{}#{part}", absolute(Path::new(file))?));
+    }
     let absolute: PathBuf = path.canonicalize().map_err(|reason| Error::Read { path: path.to_owned(), reason })?;
     absolute.into_os_string().into_string().map_err(|path| Error::NoText { path: path.into() })
 }

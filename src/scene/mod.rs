@@ -1,4 +1,4 @@
-//! From a file to a resolved [`Scene`]: TOML, OBJ or MD2 in, plain values out. Errors carry file and line, unknown keys
+//! From a file to a resolved [`Scene`]: TOML, OBJ, MD2 or glTF in, plain values out. Errors carry file and line, unknown keys
 //! are refused. Knows geometry and math; no technique and no GL.
 
 mod assets;
@@ -8,6 +8,7 @@ mod camera_framing;
 mod default_scene;
 mod error;
 mod files;
+mod furnish;
 mod include;
 mod json;
 mod model;
@@ -30,6 +31,7 @@ mod views;
 
 use std::fs;
 use std::path::Path;
+use std::sync::Arc;
 
 pub use builder::{LightBuilder, ObjectBuilder, SceneBuilder};
 #[doc(hidden)]
@@ -62,6 +64,7 @@ pub use shadow::Shadow;
 #[doc(hidden)]
 pub use views::with_shadow;
 
+use crate::geometry::ModelWorld;
 use crate::math::Aabb;
 use assets::{Assets, has_extension, is_model};
 use settings::Plain;
@@ -125,7 +128,8 @@ pub fn load_with_files(
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 
-/// Loads a scene (.toml) or a model (.obj, .md2) with a scene supplied around it. `overrides` are the texts of `--set`,
+/// Loads a scene (.toml) or a model (.obj, .md2, .gltf, .glb, .ply, .stl) with a scene supplied around it: what a model's file has no
+/// camera and no light for. `overrides` are the texts of `--set`,
 /// `a.b.c=value`, applied in order. `shadows` reads each light's `[light.shadow]`; [`crate::load`] has glumbra's own
 /// techniques read it.
 ///
@@ -216,24 +220,33 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
     let model = assets.model(path)?;
     let name = path.to_string_lossy();
     assets.also_known_as(&name, &model);
-    let mesh = model.first();
-    let bounds = Aabb { min: mesh.bounds.min + mesh.origin, max: mesh.bounds.max + mesh.origin };
-    let mut first = framing(&name, &bounds, 1.0, Floor::Touching);
+    let mut world = model.world().cloned();
+    let framed = |world: &Option<Arc<ModelWorld>>, bounds: &Aabb, aspect: f64, floor: Floor| {
+        let mut root = framing(&name, bounds, aspect, floor);
+        world.iter().for_each(|world| furnish::with_world(&mut root, world));
+        root
+    };
+    let is_furnished = world.as_ref().is_some_and(|world| !world.cameras.is_empty() || !world.lights.is_empty());
+    let bounds = model.bounds();
+    let mut first = framed(&world, &bounds, 1.0, if is_furnished { Floor::Absent } else { Floor::Touching });
     overrides::apply(&mut first, overrides)?;
 
     let mut reader = first.read();
     let is_floor_wanted = reader.boolean(FLOOR)?.unwrap_or(true);
     let aspect = resolve::image(reader.table("image")?)?.aspect();
-    let object = reader
-        .tables("object")?
-        .first()
-        .map(|object| resolve::object::read(object, &Shading::default(), assets))
-        .transpose()?;
+    let tables = reader.tables("object")?;
+    // Cameras and lights move, too.
+    if let (Some(world), Some(object)) = (&mut world, tables.first())
+        && let Some(moment) = resolve::object::moment(&mut object.read())?
+    {
+        *world = assets.at(path, &moment)?;
+    }
+    let object = tables.first().map(|object| resolve::object::read(object, &Shading::default(), assets)).transpose()?;
     let objects = object.map(|(objects, _)| objects).unwrap_or_default();
     let bounds = objects.iter().map(Object::world_bounds).reduce(Aabb::union).unwrap_or(bounds);
     check_size(path, &bounds)?;
     let floor = match () {
-        () if !is_floor_wanted => Floor::Absent,
+        () if is_furnished || !is_floor_wanted => Floor::Absent,
         () if objects.iter().any(default_scene::has_floor) => {
             let hair = default_scene::hair(&bounds);
             let below = Plain(format!("{hair:.1e}").parse().unwrap_or(hair));
@@ -243,7 +256,7 @@ fn around_model(path: &Path, overrides: &[String], assets: &mut Assets) -> Resul
         }
         () => Floor::Touching,
     };
-    let mut root = framing(&name, &bounds, aspect, floor);
+    let mut root = framed(&world, &bounds, aspect, floor);
     overrides::apply(&mut root, overrides)?;
     root.entries.retain(|(key, _)| key != FLOOR);
     Ok(root)

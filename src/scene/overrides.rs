@@ -1,10 +1,12 @@
 //! `--set a.b.c=value`: changes to a scene's [`Settings`] from the command line.
 //!
 //! A segment that meets an array of tables applies to each of them; `light.0.cone` and `light[0].cone` name one. Missing
-//! tables are made. The value is TOML; a bare word is a string. `camera=NAME` chooses the camera of that name.
+//! tables are made. The value is TOML; a bare word is a string. `camera=NAME` chooses the camera of that name,
+//! `at=SECONDS` a time of animations.
 
 use std::sync::Arc;
 
+use super::assets::is_animated;
 use super::parse;
 use super::settings::{Entry, Origin, Settings, SettingsError, Value, suggest};
 
@@ -15,6 +17,9 @@ const ARRAYS: [&str; 2] = ["light", "object"];
 
 /// The key of cameras.
 const CAMERA: &str = "camera";
+
+/// The key of a time, which stands in objects.
+const AT: &str = "at";
 
 /// Greatest depth of nesting.
 const MAX_SEGMENTS: usize = 16;
@@ -66,6 +71,9 @@ impl Override {
         if let ([_], CAMERA, Value::String(name)) = (&self.segments[..], first.as_str(), &self.entry.value) {
             return self.choose_camera(root, name);
         }
+        if let ([_], AT) = (&self.segments[..], first.as_str()) {
+            return self.set_time(root);
+        }
         let deeper = self.segments.len() > 1;
         if deeper && ARRAYS.contains(&first.as_str()) && root.get(first).is_none() {
             return Err(self.refuse(format!("the scene has no [[{first}]]")));
@@ -97,6 +105,27 @@ impl Override {
             true => String::from("no camera of the scene has a `name`"),
             false => format!("no camera is called \"{wanted}\": {}", suggest(wanted, names.iter().map(String::as_str))),
         }))
+    }
+
+    /// Sets the time of each object whose file has animations.
+    fn set_time(&self, root: &mut Settings) -> Result<()> {
+        let mut moved = 0;
+        let objects = root.entries.iter_mut().filter(|(key, _)| key == "object");
+        for item in objects
+            .filter_map(|(_, entry)| if let Value::Array(items) = &mut entry.value { Some(items) } else { None })
+            .flatten()
+        {
+            let Value::Table(object) = &mut item.value else { continue };
+            let Some(Entry { value: Value::String(mesh), .. }) = object.get("mesh") else { continue };
+            if is_animated(mesh) {
+                object.set(AT, self.entry.clone());
+                moved += 1;
+            }
+        }
+        match moved {
+            0 => Err(self.refuse(String::from("no object's mesh is a .gltf or .glb file, which may have animations"))),
+            _ => Ok(()),
+        }
     }
 
     fn set_in_table(&self, table: &mut Settings, segments: &[String]) -> Result<()> {

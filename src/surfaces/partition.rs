@@ -64,6 +64,7 @@ fn part(item: &Drawable, plane: &ModelPlane) -> Parts {
         positions: item.mesh.positions.clone(),
         normals: item.mesh.normals.clone(),
         texcoords: item.mesh.texcoords.clone(),
+        colors: item.mesh.colors.clone(),
         tangents: item.mesh.tangents.clone(),
         indices: lists.concat(),
         bounds: item.bounds,

@@ -4,7 +4,7 @@ use glam::{Mat3, Vec3};
 
 use super::bump::{self, normal_map};
 use super::lights::LightParts;
-use super::variant::{EYE_POSITION, EYE_SPACE, Variant};
+use super::variant::{EYE_POSITION, EYE_SPACE, VERTEX_COLORS, Variant};
 use crate::geometry::bump::NormalFormat;
 use crate::lights::appearance::Appearance;
 use crate::lights::drawable::{Cutout, cutout};
@@ -75,6 +75,10 @@ fn property(
         SurfaceProperty::NormalMap => parts.flags.push(if reads_map { "SHOW_NORMAL_MAP" } else { "SHOW_FLAT" }),
         SurfaceProperty::Decal => {
             parts.flags.push("SHOW_DECAL");
+            if item.has_colors() {
+                parts.defines.push(VERTEX_COLORS);
+                parts.attributes.push(Attribute::Color);
+            }
             parts.uniforms.push(Uniform::new("own_color", Vec3::from(item.material.diffuse)));
         }
         SurfaceProperty::Gloss => {}

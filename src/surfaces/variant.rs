@@ -19,6 +19,9 @@ pub const EYE_SPACE: Define = Define::flag("EYE_SPACE");
 /// The fragment stage gets positions in eye space.
 pub const EYE_POSITION: Define = Define::flag("EYE_POSITION");
 
+/// Colours of the vertices multiply those of the material.
+pub const VERTEX_COLORS: Define = Define::flag("VERTEX_COLORS");
+
 /// Features that an item's picture depends on.
 #[derive(Clone, Copy)]
 struct Needs {
@@ -141,9 +144,14 @@ pub fn of(
     if bumps.any() {
         attributes.extend([Attribute::Tangent, Attribute::Bitangent]);
     }
+    let colored = decal && item.has_colors();
+    if colored {
+        attributes.push(Attribute::Color);
+    }
     let mut defines = defines(item, lights, ending, needs, &cut, in_view);
     defines.extend(bumps.defines(bump_map, &scene.shading.bumps, lights));
     defines.extend(gloss_defines);
+    defines.extend(colored.then(|| VERTEX_COLORS));
     if bumps.are_combined() && bump::are_in_range(&uniforms, lights) {
         defines.push(Define::flag("COLORS_IN_RANGE"));
     }
@@ -161,6 +169,8 @@ pub fn of(
         ShownColors { specular, ambient: needs.ambient, scene_ambient: scene_ambient(needs, item.material).to_array() };
     let meaning = if item.waves {
         WAVES
+    } else if colored {
+        FixedFunctionDesc::Shader("colours of its vertices")
     } else if let Some(map) = bump_map.filter(|_| bumps.any()) {
         match bumps.meaning(map, &scene.shading.bumps, ending, [two_sided, specular]) {
             Ok(map) => meaning::of(scene, item, lights, viewer, ending, shown, (&cut, Some(map))),

@@ -181,7 +181,7 @@ const ROWS: &[(&str, &str, usize, &str)] = &[
         "no mesh \"tepot\": neither built in (did you mean `teapot`?",
     ),
     ("no name of a mesh", "[[object]]\nmesh = \"\"\n", 2, "`object.mesh` must name a file"),
-    ("mesh of another kind", "[[object]]\nmesh = \"a.stl\"\n", 2, "nor a file that ends in .obj"),
+    ("mesh of another kind", "[[object]]\nmesh = \"a.step\"\n", 2, "nor a file that ends in .obj"),
     ("no such file", "[[object]]\nmesh = \"no.obj\"\n", 2, "no.obj"),
     ("zero scale", "{QUAD}scale = 0\n", 3, "`object.scale` must not be zero"),
     ("flat scale", "{QUAD}scale = [1, 0.0, 1]\n", 3, "`object.scale` must not be zero"),

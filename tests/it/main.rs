@@ -34,6 +34,7 @@ mod focus;
 mod gallery;
 mod generated;
 mod geometry_files;
+mod gltf;
 mod growth;
 mod guards;
 mod hw_shadowmaps_simple;
@@ -69,6 +70,7 @@ mod ranges;
 mod redraw;
 mod repack;
 mod report;
+mod scanned;
 mod scenes;
 #[cfg(unix)]
 mod setup;

@@ -148,7 +148,7 @@ fn a_compile_error_shows_file_line_and_text() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut device = Device::new(&context);
     // The third of the four files of a shade, and the last of the whole program.
-    for (name, line) in [("shadow_map/slope.glsl (light 0)", 9), ("surfaces/surface.frag", 47)] {
+    for (name, line) in [("shadow_map/slope.glsl (light 0)", 9), ("surfaces/surface.frag", 53)] {
         let mut plan = planned(BOX, &["light.shadow.bias=\"receiver-plane\""], &[]);
         replace(&mut plan, name, |text| {
             let mut lines: Vec<&str> = text.lines().collect();

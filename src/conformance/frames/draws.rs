@@ -362,6 +362,7 @@ fn value_of(mesh: &Mesh, attribute: Attribute, index: usize) -> [f32; 4] {
         Attribute::Position => position(mesh, index),
         Attribute::Normal => mesh.normals.get(index).copied().map_or(none, wide),
         Attribute::Texcoord => mesh.texcoords.as_ref().map_or(none, |list| [list[index][0], list[index][1], 0.0, 1.0]),
+        Attribute::Color => mesh.colors.as_ref().map_or(none, |list| wide(list[index])),
         Attribute::Tangent => mesh.tangents.as_ref().map_or(none, |list| wide(list.tangents[index])),
         Attribute::Bitangent => mesh.tangents.as_ref().map_or(none, |list| wide(list.bitangents[index])),
     }

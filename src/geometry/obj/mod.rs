@@ -5,7 +5,7 @@
 
 pub(super) mod corner;
 mod place;
-mod polygon;
+pub(super) mod polygon;
 mod rewrite;
 pub(super) mod scan;
 

@@ -9,7 +9,11 @@ pub(super) const MOST_CORNERS_TO_CLIP: usize = 8192;
 ///
 /// Right for planar simple polygons, concave ones too. Others give some `n - 2` triangles; fewer than three corners give none.
 /// False: the polygon is concave and too large to clip, so that it is fanned, and its triangles overlap.
-pub(super) fn triangulate(indices: &[u32], positions: &[[f32; 3]], emit: &mut impl FnMut([u32; 3])) -> bool {
+pub(in crate::geometry) fn triangulate(
+    indices: &[u32],
+    positions: &[[f32; 3]],
+    emit: &mut impl FnMut([u32; 3]),
+) -> bool {
     if indices.len() < 3 {
         return true;
     }

@@ -108,6 +108,7 @@ impl Mark {
         self.bytes(bytemuck::cast_slice(&std::mem::take(&mut rest.positions)));
         self.bytes(bytemuck::cast_slice(&std::mem::take(&mut rest.normals)));
         self.bytes(bytemuck::cast_slice(&rest.texcoords.take().unwrap_or_default()));
+        self.bytes(bytemuck::cast_slice(&rest.colors.take().unwrap_or_default()));
         self.bytes(bytemuck::cast_slice(&std::mem::take(&mut rest.indices)));
         for material in std::mem::take(&mut rest.materials) {
             self.material(Some(&material));

@@ -8,11 +8,12 @@ use super::instances::{self, Instance};
 use super::photo::PhotoKeys;
 use super::pose::WrittenPose;
 use super::{material, placement};
+use crate::geometry::md2::{NormalSource, Pose};
 use crate::geometry::tangents::BasisCounts;
-use crate::geometry::{Gloss, Material, Mesh, Texture, Wave};
+use crate::geometry::{Gloss, Material, Mesh, Moment, PlacedMesh, Texture, Wave};
 use crate::scene::assets::Assets;
 use crate::scene::ranges::LARGEST;
-use crate::scene::settings::{Origin, Plain, Settings, SettingsError};
+use crate::scene::settings::{Origin, Plain, Reader, Settings, SettingsError};
 use crate::scene::{Error, ModelSkin, Object, Shading};
 
 /// Resolves one object, each of its instances as an object of its own, and reads its photograph.
@@ -24,12 +25,14 @@ pub(in crate::scene) fn read(
     assets: &mut Assets,
 ) -> Result<(Vec<Object>, Option<PhotoKeys>), Error> {
     let mut reader = table.read();
-    let (mesh, mesh_origin) =
-        reader.file("mesh")?.ok_or_else(|| reader.missing("mesh", "a built-in mesh, or an .obj or .md2 file"))?;
+    let (mesh, mesh_origin) = reader.file("mesh")?.ok_or_else(|| {
+        reader.missing("mesh", "a built-in mesh, or a file that ends in .obj, .md2, .gltf, .glb, .ply or .stl")
+    })?;
     let name = reader.string("name")?.unwrap_or(mesh).to_owned();
     let world_from_file = placement::read(&mut reader)?;
     let instances = instances::read(&mut reader)?;
     let pose = WrittenPose::read(&mut reader, table.read())?;
+    let moment = moment(&mut reader)?;
     let wave = reader.table("wave")?.map(wave).transpose()?.flatten();
     let lit = reader.boolean("lit")?.unwrap_or(true);
     let casts_shadow = reader.boolean("casts_shadow")?.unwrap_or(true);
@@ -38,53 +41,131 @@ pub(in crate::scene) fn read(
     reader.finish()?;
     let (material, photo) = material.map(|table| material::read(table, &name, assets)).transpose()?.unzip();
     let photo = photo.flatten();
-    let mesh_name = mesh;
-    let (mesh, pose) = assets.mesh(mesh, mesh_origin, &pose)?;
-    let (material, skin) = with_skin(material, &name, || assets.skin(mesh_name, mesh_origin));
-    if material.as_ref().is_some_and(|own| own.gloss == Some(Gloss::DecalAlpha) && own.decal.is_none()) {
-        let message = "has gloss = \"decal-alpha\", and there is no `decal`";
-        return Err(table.read().error("material", message).into());
-    }
-    let (mesh, bases) = with_bases(mesh, material.as_deref(), shading, table)?;
-    if closed {
-        check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
-    }
-    let world_from_model = world_from_file * DMat4::from_translation(mesh.origin);
-    let wave = wave.map(|wave| wave.relative_to(mesh.origin));
-    let material = material.map(|material| relative_to(material, mesh.origin));
-    let object = Object {
-        name,
-        mesh,
-        world_from_model,
-        wave,
-        material,
-        skin,
-        photo: None,
-        pose,
-        bases,
-        lit,
-        casts_shadow,
-        closed,
-    };
-    warn_of_clear(&object, table, assets);
-    let objects = match instances {
-        None => {
-            check_reach(&object, &table.origin)?;
-            vec![object]
+    let keys = ObjectKeys { name, world_from_file, wave, material, lit, casts_shadow, closed };
+    let found = match assets.placed(mesh, mesh_origin, moment.as_ref())? {
+        Some(placed) => {
+            pose.refuse()?;
+            let is_single = placed.len() == 1;
+            placed.into_iter().map(|placed| keys.found(placed, is_single)).collect()
         }
-        Some(instances) => placed(&object, &world_from_file, &instances)?,
+        None => {
+            table.read().refuse(&["at", "animation"], "belongs to animated models, .gltf or .glb")?;
+            let (posed, pose) = assets.mesh(mesh, mesh_origin, &pose)?;
+            let skin = || assets.skin(mesh, mesh_origin);
+            let (material, skin) = with_skin(keys.material.clone(), &keys.name, skin);
+            vec![Found { name: keys.name.clone(), mesh: posed, file_from_mesh: None, pose, material, skin }]
+        }
     };
+    let mut objects = Vec::with_capacity(found.len());
+    for found in found {
+        let file_from_mesh = found.file_from_mesh;
+        let object = keys.object(found, table, shading)?;
+        warn_of_clear(&object, table, assets);
+        match &instances {
+            None => {
+                check_reach(&object, &table.origin)?;
+                objects.push(object);
+            }
+            Some(instances) => objects.extend(placed(&object, &world_from_file, file_from_mesh, instances)?),
+        }
+    }
     Ok((objects, photo))
+}
+
+/// `at` and `animation`: a time of an animation of the object's file.
+pub(in crate::scene) fn moment(reader: &mut Reader<'_>) -> Result<Option<Moment>, SettingsError> {
+    let seconds = reader.number("at", 0.0..=LARGEST)?;
+    let animation = reader.string("animation")?.map(str::to_owned);
+    match (seconds, &animation) {
+        (None, Some(_)) => Err(reader.error("animation", "needs `at`: its time in seconds")),
+        (seconds, _) => Ok(seconds.map(|seconds| Moment { seconds, animation })),
+    }
+}
+
+/// Keys of an object, which all meshes of its file share.
+struct ObjectKeys {
+    name: String,
+    world_from_file: DMat4,
+    wave: Option<Wave>,
+    material: Option<Arc<Material>>,
+    lit: bool,
+    casts_shadow: bool,
+    closed: bool,
+}
+
+/// A mesh of an object's file.
+struct Found {
+    name: String,
+    mesh: Arc<Mesh>,
+    /// Its place in the file; `None`: the file places nothing.
+    file_from_mesh: Option<DMat4>,
+    pose: Option<(Pose, NormalSource)>,
+    material: Option<Arc<Material>>,
+    skin: Option<ModelSkin>,
+}
+
+impl ObjectKeys {
+    /// A mesh that a file places. One of several is called by its node, too.
+    fn found(&self, placed: PlacedMesh, is_single: bool) -> Found {
+        let name = if is_single { self.name.clone() } else { format!("{}/{}", self.name, placed.name) };
+        let (material, file_from_mesh) = (self.material.clone(), Some(placed.world_from_model));
+        Found { name, mesh: placed.mesh, file_from_mesh, pose: None, material, skin: None }
+    }
+
+    fn object(&self, found: Found, table: &Settings, shading: &Shading) -> Result<Object, SettingsError> {
+        let Found { name, mesh, file_from_mesh, pose, material, skin } = found;
+        if material.as_ref().is_some_and(|own| own.gloss == Some(Gloss::DecalAlpha) && own.decal.is_none()) {
+            let message = "has gloss = \"decal-alpha\", and there is no `decal`";
+            return Err(table.read().error("material", message));
+        }
+        if material.is_none() && shading.per_vertex && mesh.materials.iter().any(|own| own.bump.is_some()) {
+            let message =
+                "has a normal map, which lighting = \"per-vertex\" of [shading] cannot show: write a `material`";
+            return Err(table.read().error("mesh", message));
+        }
+        let has_own_bumps = material.is_none() && mesh.materials.iter().any(|own| own.bump.is_some());
+        let (mesh, bases) = with_bases(mesh, material.as_deref(), shading, table)?;
+        let triangles = mesh.triangle_count();
+        let own_bases = || BasisCounts { triangles, from_mesh: true, ..BasisCounts::default() };
+        let bases = bases.or(has_own_bumps.then(own_bases));
+        if self.closed {
+            check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
+        }
+        let world_from_mesh = file_from_mesh.map_or(self.world_from_file, |placed| self.world_from_file * placed);
+        let world_from_model = world_from_mesh * DMat4::from_translation(mesh.origin);
+        let wave = self.wave.map(|wave| wave.relative_to(mesh.origin));
+        let material = material.map(|material| relative_to(material, mesh.origin));
+        Ok(Object {
+            name,
+            mesh,
+            world_from_model,
+            wave,
+            material,
+            skin,
+            photo: None,
+            pose,
+            bases,
+            lit: self.lit,
+            casts_shadow: self.casts_shadow,
+            closed: self.closed,
+        })
+    }
 }
 
 /// A copy of `object` at each of the places, with the mesh and the material that it has. `world_from_group`: the object's own
 /// placement, which moves all of them.
-fn placed(object: &Object, world_from_group: &DMat4, instances: &[Instance]) -> Result<Vec<Object>, SettingsError> {
+fn placed(
+    object: &Object,
+    world_from_group: &DMat4,
+    file_from_mesh: Option<DMat4>,
+    instances: &[Instance],
+) -> Result<Vec<Object>, SettingsError> {
     let is_moved = *world_from_group != DMat4::IDENTITY;
     let place = |(number, instance): (usize, &Instance)| {
         // A product with the identity may change the sign of a zero.
         let world_from_file = if is_moved { *world_from_group * instance.placement } else { instance.placement };
-        let world_from_model = world_from_file * DMat4::from_translation(object.mesh.origin);
+        let world_from_mesh = file_from_mesh.map_or(world_from_file, |placed| world_from_file * placed);
+        let world_from_model = world_from_mesh * DMat4::from_translation(object.mesh.origin);
         let placed = Object { name: format!("{}[{number}]", object.name), world_from_model, ..object.clone() };
         check_reach(&placed, &instance.origin)?;
         Ok(placed)

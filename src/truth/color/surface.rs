@@ -132,6 +132,12 @@ impl<'a> SurfaceTable<'a> {
             let place = Place { error: DVec2::splat(1e-6 * far) + (place.pixel[0] + place.pixel[1]) / 256.0, ..place };
             Some(BumpedPoint::new(&facet, bump, self.bumps.get(&key(bump))?, scene, matrix, &place))
         });
+        let tint = object.mesh.colors.as_ref().map(|colors| {
+            let corners = indices.map(|index| DVec3::from_array(colors[index].map(f64::from)));
+            let at = |point: DVec3| mix(&corners, weights(point));
+            let around = seen.spread.map(|way| [at(seen.position + way), at(seen.position - way)]);
+            (at(seen.position), around.concat())
+        });
         Some(Shaded {
             material,
             lit: object.lit,
@@ -142,7 +148,7 @@ impl<'a> SurfaceTable<'a> {
             corners: triangle.corners,
             corner_normals: corner_normals.map(unit),
             weights: at,
-            decal: if has_texcoords { self.decal(&own) } else { [Bounds::ALL; 3] },
+            decal: tinted(if has_texcoords { self.decal(&own) } else { [Bounds::ALL; 3] }, tint),
         })
     }
 
@@ -187,6 +193,18 @@ impl Lookup<'_> {
         let wrap = if placement.clamped { Wrapped::Clamped } else { Wrapped::Repeated };
         window(picture, wrap, &self.place(placement, 1.0), true)
     }
+}
+
+/// The decal's colour times that of the vertices, interpolated: at the point, and at those that its sample may show.
+fn tinted(decal: [Bounds; 3], tint: Option<(DVec3, Vec<DVec3>)>) -> [Bounds; 3] {
+    let Some((value, around)) = tint else { return decal };
+    // Rounding of the interpolation in floats.
+    const ROUNDING: f64 = 1e-6;
+    std::array::from_fn(|channel| {
+        let beside = around.iter().map(|color| color[channel]);
+        let others = beside.flat_map(|color| [(color - ROUNDING).max(0.0), color + ROUNDING]);
+        decal[channel].times(Bounds::around(value[channel].max(0.0), others))
+    })
 }
 
 /// A vertex's normal in model space, as its wave turns it.
