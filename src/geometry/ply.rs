@@ -164,7 +164,7 @@ fn vertices(rows: &[Row], path: &Path) -> Result<Mesh, Error> {
         mesh.normals.push(row.take(NORMAL).map_or([0.0; 3], |normal| normal.map(|number| number as f32)));
         let color = row.take(COLOR).unwrap_or([1.0; 3]);
         // Not a number is black.
-        colors.push(color.map(|channel| (channel as f32).max(0.0).min(1.0)));
+        colors.push(color.map(|channel| if channel.is_nan() { 0.0 } else { channel.clamp(0.0, 1.0) as f32 }));
         texcoords.push(row.take(TEXCOORD).unwrap_or_default().map(|number| number as f32));
     }
     mesh.colors = has(&COLOR).then_some(colors);

@@ -151,7 +151,7 @@ pub fn of(
     let mut defines = defines(item, lights, ending, needs, &cut, in_view);
     defines.extend(bumps.defines(bump_map, &scene.shading.bumps, lights));
     defines.extend(gloss_defines);
-    defines.extend(colored.then(|| VERTEX_COLORS));
+    defines.extend(colored.then_some(VERTEX_COLORS));
     if bumps.are_combined() && bump::are_in_range(&uniforms, lights) {
         defines.push(Define::flag("COLORS_IN_RANGE"));
     }

@@ -194,13 +194,14 @@ impl Reader<'_> {
         }
         Ok(match mode {
             Mode::TriangleStrip => {
-                let triangle =
-                    |(at, [a, b, c]): (usize, &[u32; 3])| if at % 2 == 0 { [*a, *b, *c] } else { [*a, *c, *b] };
-                order.array_windows::<3>().enumerate().flat_map(triangle).collect()
+                let triangle = |(at, run): (usize, &[u32])| {
+                    if at % 2 == 0 { [run[0], run[1], run[2]] } else { [run[0], run[2], run[1]] }
+                };
+                order.windows(3).enumerate().flat_map(triangle).collect()
             }
             Mode::TriangleFan => {
                 let first = order.first().copied().unwrap_or_default();
-                order.get(1..).unwrap_or_default().array_windows::<2>().flat_map(|[b, c]| [*b, *c, first]).collect()
+                order.get(1..).unwrap_or_default().windows(2).flat_map(|pair| [pair[0], pair[1], first]).collect()
             }
             _ => order[..order.len() - rest].to_vec(),
         })
