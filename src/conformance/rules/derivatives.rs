@@ -12,7 +12,8 @@ pub fn derivatives(subject: &DriverUnderTest, findings: &mut Findings) -> Result
     let surface = subject.bench.surface([SIDE as u32; 2], Some(GlFormat::Rgba32F), None)?;
     linear(subject, findings, &surface)?;
     curve(subject, findings, &surface)?;
-    vectors(subject, findings, &surface)
+    vectors(subject, findings, &surface)?;
+    depths(subject, findings, &surface)
 }
 
 /// A whole viewport whose value is `of` the window's coordinates in pixels.
@@ -101,5 +102,27 @@ fn vectors(subject: &DriverUnderTest, findings: &mut Findings, surface: &Surface
         }
         findings.tally(name, tally, "");
     }
+    Ok(())
+}
+
+/// Slopes of the fragment's own depth, times the side in pixels, on a surface that leans along both axes.
+fn depths(subject: &DriverUnderTest, findings: &mut Findings, surface: &Surface) -> Result<(), Error> {
+    // 16: SIDE.
+    let shader =
+        Shader::of("result = 16.0 * vec4(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z), fwidth(gl_FragCoord.z), 0.0);");
+    let vertices = full(0.0).map(|vertex| {
+        let [x, y, _, w] = vertex.position;
+        Vertex { position: [x, y, 0.25 * x - 0.5 * y, w], ..vertex }
+    });
+    subject.bench.draw(&GlDraw { shader, ..GlDraw::plain(surface, FLAT, &vertices) })?;
+    // Window depths are half of z / w, and the window is two units of x / w wide.
+    let due = [0.25, -0.5, 0.75];
+    let mut tally = GradeTally::default();
+    for color in surface.floats() {
+        let off = (0..3).map(|index| (f64::from(color[index]) - due[index]).abs()).fold(0.0, f64::max);
+        // 16 times the difference of two depths of 24 bits.
+        tally.add(if off.is_nan() { Grade::Wrong } else { verify::within(off, 4e-6, 1e-3) }, off);
+    }
+    findings.tally("of the fragment's depth", tally, "");
     Ok(())
 }

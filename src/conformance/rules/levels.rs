@@ -133,6 +133,8 @@ fn one_of(seen: f64, due: [f64; 3]) -> (Grade, f64) {
 const PIXELS: u32 = 8;
 
 const IMPLICIT: Shader = Shader::of("result = vec4(texture(map, passed.xy).r);");
+/// A lookup before a discard that no fragment takes.
+const TESTED: Shader = Shader::of("result = vec4(texture(map, passed.xy).r); if (result.r < -1e30) discard;");
 /// A quarter of a texel off the middle of a texel, where the coordinate is whole.
 const OFF_MIDDLE: Shader =
     Shader::of("vec2 slope = dFdx(passed.xy); result = vec4(textureGrad(map, vec2(0.38), slope, dFdy(passed.xy)).r);");
@@ -146,8 +148,9 @@ const GRADIENT_OF_FOUR: Shader =
 pub fn derived(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     let slopes = slopes();
     let surface = subject.bench.surface([PIXELS * slopes.len() as u32, PIXELS], Some(GlFormat::Rgba32F), None)?;
-    let cases: [(&str, Shader, f64, Sampling); 9] = [
+    let cases: [(&str, Shader, f64, Sampling); 10] = [
         ("texture", IMPLICIT, 0.0, Sampling::TRILINEAR),
+        ("texture, then a discard", TESTED, 0.0, Sampling::TRILINEAR),
         ("texture with a bias", BIASED, 1.5, Sampling::TRILINEAR),
         ("textureProj", PROJECTED, 0.0, Sampling::TRILINEAR),
         ("textureGrad", GRADIENT, 0.0, Sampling::TRILINEAR),

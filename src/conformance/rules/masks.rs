@@ -99,6 +99,26 @@ pub fn clears(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), 
             Ok(())
         });
     }
+    alike(subject, findings)
+}
+
+/// Clears one after the other whose colours differ in one channel.
+fn alike(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    let surface = subject.bench.surface([4, 4], Some(GlFormat::Rgba8), None)?;
+    for by_buffer in [false, true] {
+        let mut bad = 0;
+        for channel in 0..4 {
+            let mut other = OLD;
+            other[channel] = NEW[channel];
+            for color in [OLD, other, OLD] {
+                let clear = GlClear { color: Some(floats(color)), by_buffer, ..GlClear::default() };
+                subject.bench.clear(&surface, GlState::WRITE, clear)?;
+                bad += usize::from(wrong(&surface, |_| color) > 0);
+            }
+        }
+        let call = if by_buffer { "glClearBuffer" } else { "glClear" };
+        findings.none_wrong(format!("{call} of colours that differ in one channel"), bad, 12);
+    }
     Ok(())
 }
 
