@@ -115,7 +115,7 @@ pub fn measure(choice: &TechniqueChoice, quick: bool, renderer: &mut Renderer) -
     let truth =
         truth::trace(&scenes[0], 0, &options).map_err(|reason| Error::Truth { id: choice.id.clone(), reason })?;
     let mut price = |scene: &Scene| -> Result<Price, Error> {
-        let failed = |reason| Error::Frame { id: choice.id.clone(), reason };
+        let failed = |reason| Error::Frame { id: choice.id.clone(), reason: Box::new(reason) };
         let (errors, _) = facing_errors(&choice.id, scene, (0, &truth), None, renderer)?;
         let request = Request { frames: FRAMES + 1, sampled_warnings: false, ..Request::default() };
         let plan = renderer.plan(scene, &request).map_err(failed)?;

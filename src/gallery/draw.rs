@@ -104,7 +104,7 @@ impl GalleryEntry {
 /// Loads a scene for the entry of this id.
 pub fn load(id: &str, embedded: &Embedded, overrides: &[String]) -> Result<Scene, Error> {
     let loaded = crate::techniques::load_embedded(embedded, overrides);
-    loaded.map(|loaded| loaded.scene).map_err(|reason| Error::Scene { id: id.to_owned(), reason })
+    loaded.map(|loaded| loaded.scene).map_err(|reason| Error::Scene { id: id.to_owned(), reason: Box::new(reason) })
 }
 
 /// Size of a quick picture.
@@ -152,7 +152,7 @@ fn draw(
     compared: &Compared,
     renderer: &mut Renderer,
 ) -> Result<(DrawnSide, RgbImage), Error> {
-    let failed = |reason| Error::Frame { id: entry.id.clone(), reason };
+    let failed = |reason| Error::Frame { id: entry.id.clone(), reason: Box::new(reason) };
     if let Some(change) = fault.and_then(Fault::change) {
         change.apply(&mut scene).map_err(|reason| Error::Skin { id: entry.id.clone(), reason })?;
     }
@@ -195,7 +195,7 @@ pub fn facing_errors(
 ) -> Result<(Errors, RgbImage), Error> {
     let judged = |reason| Error::Judge { id: id.to_owned(), reason };
     let shade = shade(scene, light, fault, renderer);
-    let mut shade = shade.map_err(|reason| Error::Frame { id: id.to_owned(), reason })?;
+    let mut shade = shade.map_err(|reason| Error::Frame { id: id.to_owned(), reason: Box::new(reason) })?;
     // Shares are wanted, not where they lie: no band.
     let band = Band { texels: 0.0, map_size: [1, 1] };
     let facing = metrics::compare(truth, &shade, &band).map_err(judged)?.facing;

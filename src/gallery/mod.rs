@@ -33,9 +33,9 @@ pub enum Error {
     #[error("entry {id}: its scene {scene} is not compiled in")]
     NoScene { id: String, scene: String },
     #[error("entry {id}: {reason}")]
-    Scene { id: String, reason: scenes_of::Error },
+    Scene { id: String, reason: Box<scenes_of::Error> },
     #[error("entry {id}: {reason}")]
-    Frame { id: String, reason: frame::Error },
+    Frame { id: String, reason: Box<frame::Error> },
     #[error("entry {id}: {reason}")]
     Truth { id: String, reason: truth::Error },
     #[error("entry {id}: {reason}")]

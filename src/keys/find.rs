@@ -25,8 +25,8 @@ pub fn find<'a>(table: &'a [Key], pattern: &str) -> Result<Vec<&'a Key>, NoSuchK
         &|key| key.key.ends_with(&end) || key.key.contains(&format!("{end}.")),
         &|key| key.key.contains(&path),
     ];
-    let found = tests.iter().map(|test| table.iter().filter(|key| test(key)).collect::<Vec<_>>());
-    let found = found.filter(|keys| !keys.is_empty() && !path.is_empty()).next();
+    let mut found = tests.iter().map(|test| table.iter().filter(|key| test(key)).collect::<Vec<_>>());
+    let found = found.find(|keys| !keys.is_empty() && !path.is_empty());
     found.ok_or_else(|| NoSuchKey { pattern: pattern.to_owned(), hint: nearest(table, &path) })
 }
 

@@ -20,8 +20,10 @@ use quick_xml::events::{BytesStart, Event};
 const ROOT: &str = env!("CARGO_MANIFEST_DIR");
 const GLUMBRA: &str = env!("CARGO_BIN_EXE_glumbra");
 
-/// Every entry in quick pictures, and the page.
-static GALLERY: LazyLock<(Vec<(GalleryEntry, ShownEntry)>, String, Vec<MeasuredChoice>)> = LazyLock::new(|| {
+/// The entries and what was drawn of each in quick pictures, the page, and what was measured of the choices.
+type Drawn = (Vec<(GalleryEntry, ShownEntry)>, String, Vec<MeasuredChoice>);
+
+static GALLERY: LazyLock<Drawn> = LazyLock::new(|| {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
     let shown: Vec<(GalleryEntry, ShownEntry)> = gallery::chosen(&[])

@@ -155,7 +155,9 @@ fn a_table_without_a_needed_key_is_refused() {
 fn without(exemplar: &Embedded, key: &str) -> Option<String> {
     fn remove(value: &mut toml::Value, path: &[&str]) -> bool {
         match value {
-            toml::Value::Array(items) => items.iter_mut().fold(false, |done, item| remove(item, path) || done),
+            toml::Value::Array(items) => {
+                items.iter_mut().map(|item| remove(item, path)).collect::<Vec<_>>().contains(&true)
+            }
             toml::Value::Table(table) => match path {
                 [last] => table.remove(*last).is_some(),
                 [first, rest @ ..] => table.get_mut(*first).is_some_and(|value| remove(value, rest)),
