@@ -20,8 +20,8 @@ const WIDTH: u16 = 120;
                   glumbra keys light.shadow.offset    a table\n  \
                   glumbra keys kernel                 keys with that name, explained\n  \
                   glumbra keys --schema > scene.schema.json\n\n\
-                  An editor with the TOML language server taplo completes and checks keys in a scene file\n\
-                  that begins with the line\n  #:schema scene.schema.json"
+                  An editor with the TOML language server taplo completes and checks keys in a scene file \
+                  that begins with this line:\n  #:schema scene.schema.json"
 )]
 pub(super) struct KeysArgs {
     /// A key, a table, or a part of a name: light.shadow.size, shadow, size

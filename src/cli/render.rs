@@ -29,8 +29,8 @@ use crate::scene::Scene;
 #[derive(Debug, Args)]
 #[command(after_help = HELP)]
 pub struct RenderArgs {
-    /// Scenes (.toml; - is one on standard input), or models (.obj, .md2, .gltf, .glb, .ply, .stl) around which a floor, a spotlight and a camera are
-    /// supplied
+    /// Scenes (.toml; - is one on standard input), or models (.obj, .md2, .gltf, .glb, .ply, .stl) around which a floor, a
+    /// spotlight and a camera are supplied
     #[arg(required = true, value_name = "SCENE")]
     scenes: Vec<PathBuf>,
 

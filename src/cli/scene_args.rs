@@ -81,8 +81,8 @@ impl SceneChanges {
 /// The scene, and changes to it.
 #[derive(Clone, Debug, Args)]
 pub struct SceneArgs {
-    /// A scene (.toml; - is one on standard input), or a model (.obj, .md2, .gltf, .glb, .ply, .stl) around which a floor, a spotlight and a camera
-    /// are supplied
+    /// A scene (.toml; - is one on standard input), or a model (.obj, .md2, .gltf, .glb, .ply, .stl) around which a floor,
+    /// a spotlight and a camera are supplied
     pub scene: PathBuf,
 
     #[command(flatten)]

@@ -72,8 +72,11 @@ fn without_choice(source: &Source) -> Option<String> {
 
 /// The nearest number with eleven digits of the binary system.
 fn rounded(number: f64) -> f64 {
+    if number == 0.0 {
+        return 0.0;
+    }
     let unit = 2f64.powi(number.abs().log2().floor() as i32 - 10);
-    if number == 0.0 { 0.0 } else { (number / unit).round() * unit }
+    (number / unit).round() * unit
 }
 
 /// Numbers with a point that have the digits of half floats.
