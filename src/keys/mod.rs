@@ -29,11 +29,11 @@ const MAP: &str = "object.material.photo.map.";
 pub struct Key {
     /// The path, without numbers of lights, objects and cameras: `light.shadow.size`.
     pub key: String,
-    /// What it is for.
+    /// Purpose.
     pub is: String,
     /// Values that it may have, in words.
     pub values: String,
-    /// What holds where it is not written.
+    /// Meaning of its absence.
     pub absent: Absent,
     /// Shadow techniques that read it; empty: it is no key of `[light.shadow]`.
     pub read_by: Vec<&'static str>,
@@ -42,7 +42,7 @@ pub struct Key {
     pub forms: Vec<ValueForm>,
 }
 
-/// What holds where a key is not written.
+/// Meaning of a key's absence.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
 #[serde(rename_all = "snake_case")]
 pub enum Absent {
@@ -50,7 +50,7 @@ pub enum Absent {
     Needed,
     /// As this value, in TOML.
     Default(String),
-    /// What these words say.
+    /// As these words say.
     Words(String),
 }
 

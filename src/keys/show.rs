@@ -10,7 +10,7 @@ use super::{Absent, Key};
 const NEEDED: &str = "must be written";
 
 impl Absent {
-    /// What holds, in words; a default as TOML.
+    /// The meaning in words; a default as TOML.
     pub fn words(&self) -> &str {
         match self {
             Self::Needed => NEEDED,

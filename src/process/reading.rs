@@ -36,7 +36,7 @@ impl Drop for Reading {
     }
 }
 
-/// What is being read, the bytes that were read of it, and all of its bytes.
+/// A step of reading: its name, the bytes that were read, and all of its bytes.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Progress {
     pub what: String,

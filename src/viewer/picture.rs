@@ -14,7 +14,7 @@ use crate::plan::{Plan, Request};
 /// A frame that was drawn.
 pub struct DrawnFrame {
     plan: Plan,
-    /// What covers the window in place of the plan's picture.
+    /// A picture that covers the window in place of the plan's.
     cover: Option<Canvas>,
     sheets: Vec<Sheet>,
 }

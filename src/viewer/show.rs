@@ -111,7 +111,7 @@ pub trait Show {
     }
 
     /// Saves scene and picture.
-    fn save(&mut self, _renderer: &mut Renderer) {}
+    fn save_picture(&mut self, _renderer: &mut Renderer) {}
 
     /// Time between two calls of [`Show::poll`]; `None`: there is nothing to look for.
     fn polls(&self) -> Option<Duration> {

@@ -155,7 +155,7 @@ impl<S: Show> App<S> {
             Reaction::Retitle => self.tell(),
             Reaction::Save => {
                 if let Some(live) = &mut self.live {
-                    self.state.save(&mut live.renderer);
+                    self.state.save_picture(&mut live.renderer);
                 }
                 self.tell();
             }

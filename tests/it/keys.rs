@@ -201,7 +201,7 @@ fn the_page_and_the_schema_are_those_of_the_code() {
     );
 }
 
-/// What a value has that a schema refuses; of JSON Schema as much as ours uses.
+/// Faults of a value by a schema; of JSON Schema as much as ours uses.
 fn faults(root: &Value, schema: &Value, value: &Value, path: &str) -> Vec<String> {
     schema
         .as_object()

@@ -82,7 +82,7 @@ impl Folder {
         image::open(self.path(name)).unwrap().into_rgb8()
     }
 
-    /// What a script says, and its last picture.
+    /// Text that a script prints, and its last picture.
     fn view(&self, keys: &str) -> (Vec<String>, RgbImage) {
         self.view_of("scene.toml", keys)
     }
@@ -328,7 +328,7 @@ fn a_broken_file_leaves_the_picture_and_is_told() {
     assert!(shown != before && shown.pixels().zip(before.pixels()).take(400 * 150).all(|(a, b)| a == b));
 }
 
-/// What the mouse has moved stays where the files do not change it.
+/// Things that the mouse has moved stay where the files do not change them.
 #[test]
 fn moves_outlast_a_change_of_something_else() {
     let folder = Folder::new();

@@ -108,8 +108,10 @@ fn vectors(subject: &DriverUnderTest, findings: &mut Findings, surface: &Surface
 /// Slopes of the fragment's own depth, times the side in pixels, on a surface that leans along both axes.
 fn depths(subject: &DriverUnderTest, findings: &mut Findings, surface: &Surface) -> Result<(), Error> {
     // 16: SIDE.
-    let shader =
-        Shader::of("result = 16.0 * vec4(dFdx(gl_FragCoord.z), dFdy(gl_FragCoord.z), fwidth(gl_FragCoord.z), 0.0);");
+    let shader = Shader::of(
+        "float own = gl_FragCoord.z;
+         result = 16.0 * vec4(dFdx(gl_FragCoord.z), dFdy(own), fwidth(own), 0.0);",
+    );
     let vertices = full(0.0).map(|vertex| {
         let [x, y, _, w] = vertex.position;
         Vertex { position: [x, y, 0.25 * x - 0.5 * y, w], ..vertex }

@@ -16,7 +16,7 @@ use super::nodes::Placed;
 pub(super) struct Deform {
     /// Weights of the mesh's morph targets; missing ones are 0.
     pub weights: Vec<f64>,
-    /// Of each joint, the world from the mesh as it was bound. `None`: the mesh has no skin.
+    /// World from the mesh as it was bound, by joint. `None`: the mesh has no skin.
     pub joints: Option<Vec<DMat4>>,
 }
 

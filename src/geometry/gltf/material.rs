@@ -106,7 +106,7 @@ fn bump(normal: &Sampled) -> Bump {
     Bump::new(source, NormalFormat::default(), MipColors::default(), border, BasisFit::Orthogonal)
 }
 
-/// What alpha means.
+/// Meaning of alpha.
 enum Alpha {
     Ignored,
     /// Fragments whose alpha is below the value are not drawn.

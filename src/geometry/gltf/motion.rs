@@ -21,7 +21,7 @@ pub(super) struct NodeMotion {
     pub weights: Option<Vec<f64>>,
 }
 
-/// What is set, by the node's number.
+/// Values that are set, by the node's number.
 pub(super) type Motion = HashMap<usize, NodeMotion>;
 
 impl File {

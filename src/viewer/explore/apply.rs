@@ -1,4 +1,4 @@
-//! What keys, mouse and changed files do to an [`Explorer`]: its side of the contract with the window.
+//! Effects of keys, mouse and changed files on an [`Explorer`]: its side of the contract with the window.
 
 use std::time::Duration;
 
@@ -145,7 +145,7 @@ impl Explorer {
     }
 }
 
-/// What of a light the files and the keys may both change.
+/// The part of a light that files and keys may both change.
 #[derive(Debug)]
 #[expect(dead_code, reason = "compared by their text")]
 struct Kept {
@@ -277,7 +277,7 @@ impl Show for Explorer {
         can_go_back
     }
 
-    fn save(&mut self, renderer: &mut Renderer) {
+    fn save_picture(&mut self, renderer: &mut Renderer) {
         self.said = Some(match self.save_both(renderer) {
             Ok(said) => said,
             Err(error) => format!("not saved: {error}"),

@@ -15,7 +15,7 @@ use crate::viewer::show::{Button, Reaction, Show};
 /// Outcome of a script.
 #[derive(Debug)]
 pub struct Run {
-    /// What a window would show at the end.
+    /// The picture that a window would show at the end.
     pub canvas: Canvas,
     /// Number of frames that were drawn.
     pub frames: u32,
@@ -64,7 +64,7 @@ pub fn run_steps(
             Some(Reaction::Quit) => break,
             Some(Reaction::Redraw) => drawn = draw(state, renderer)?,
             Some(Reaction::Save) => {
-                state.save(renderer);
+                state.save_picture(renderer);
                 drawn = draw(state, renderer)?;
             }
             Some(Reaction::Retitle) => {}

@@ -30,7 +30,7 @@ pub struct Explorer {
     /// The scene as its files have it, through the chosen camera.
     base: Scene,
     scene: Scene,
-    /// What could be drawn last, to go back to.
+    /// The last state that could be drawn, to go back to.
     good: (Scene, Looks),
     good_light: usize,
     /// True after going back, until something is drawn.
@@ -48,7 +48,7 @@ pub struct Explorer {
     flies: bool,
     size: [u32; 2],
     facts: Facts,
-    /// What the last command did, if that is not to be seen.
+    /// Outcome of the last command, if that is not to be seen.
     said: Option<String>,
     /// Error of a change that could not be drawn.
     error: Option<String>,

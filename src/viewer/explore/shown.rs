@@ -1,4 +1,4 @@
-//! What is shown of the scene: the picture, a view or the ray tracer's picture in its place or beside it, a pass, sheets.
+//! Pictures of the scene: its own, a view or the ray tracer's picture in its place or beside it, a pass, sheets.
 
 use crate::judge::truth_pictures::TruthView;
 use crate::plan::ViewRequest;
@@ -37,7 +37,7 @@ pub(super) enum Paged {
     LeftOut,
 }
 
-/// What is shown beside the scene itself.
+/// Pictures beside the scene itself.
 #[derive(Clone, Debug, Default)]
 pub(super) struct Looks {
     /// Place in [`LOOKS`]; `None`: the picture alone.
@@ -85,7 +85,7 @@ impl Look {
         }
     }
 
-    /// What it shows.
+    /// Its contents.
     pub fn in_words(self) -> &'static str {
         match self {
             Self::Drawn(View::LightDepth) => "the light's shadow map",

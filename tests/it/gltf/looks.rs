@@ -1,4 +1,4 @@
-//! What meshes of a file look like: the same scene as OBJ and MTL gives the same picture.
+//! Looks of a file's meshes: the same scene as OBJ and MTL gives the same picture.
 
 use serde_json::{Value, json};
 

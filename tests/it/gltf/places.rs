@@ -1,4 +1,4 @@
-//! What a file places: nodes, names, cameras and lights.
+//! Things that a file places: nodes, names, cameras and lights.
 
 use std::process::Command;
 
