@@ -18,7 +18,7 @@ pub enum Reaction {
     Redraw,
     /// Only the title has changed.
     Retitle,
-    /// Scene and picture are to be saved: [`Show::save`].
+    /// Scene and picture are to be saved: [`Show::save_picture`].
     Save,
     Quit,
 }
