@@ -159,7 +159,7 @@ pub enum Error {
     Interrupted { folder: std::path::PathBuf },
     #[error("{failed} of {rows} settings could not be measured, row {row} for example: {why}; {folder} holds the others", folder = .folder.display())]
     FailedRows { failed: usize, rows: usize, row: usize, why: String, folder: std::path::PathBuf },
-    #[error("--no-floor: {scene} is a scene; only a model (.obj) is supplied with a floor", scene = .scene.display())]
+    #[error("--no-floor: {scene} is a scene; only a model is supplied with a floor", scene = .scene.display())]
     NoFloor { scene: std::path::PathBuf },
     #[error("standard input: {0}")]
     Input(std::io::Error),

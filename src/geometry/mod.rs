@@ -1,5 +1,5 @@
-//! Meshes on the CPU: loading (OBJ and MTL, MD2, glTF, PLY, STL), primitives, smooth normals, tangent bases, normal maps, skins, shadow
-//! volumes. No GL, no scene.
+//! Meshes on the CPU: loading (OBJ and MTL, MD2, glTF, PLY, STL), primitives, smooth normals, tangent bases, normal maps, skins,
+//! shadow volumes. No GL, no scene.
 
 pub mod bump;
 mod derived;

@@ -43,8 +43,7 @@ fn property(keys: &[Key], key: &Key) -> Value {
         _ => values(keys, key),
     };
     let notes = match &key.absent {
-        Absent::Needed => String::new(),
-        Absent::Default(_) => String::new(),
+        Absent::Needed | Absent::Default(_) => String::new(),
         Absent::Words(words) => format!("\nWhere it is not written: {words}."),
     };
     let by = if key.read_by.is_empty() { String::new() } else { format!("\nRead by {}.", key.read_by.join(", ")) };

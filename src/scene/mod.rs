@@ -128,9 +128,8 @@ pub fn load_with_files(
     Ok(Loaded { scene, warnings: assets.warnings })
 }
 
-/// Loads a scene (.toml) or a model (.obj, .md2, .gltf, .glb, .ply, .stl) with a scene supplied around it: what a model's file has no
-/// camera and no light for. `overrides` are the texts of `--set`,
-/// `a.b.c=value`, applied in order. `shadows` reads each light's `[light.shadow]`; [`crate::load`] has glumbra's own
+/// Loads a scene (.toml) or a model (.obj, .md2, .gltf, .glb, .ply, .stl). A model is supplied with what its file lacks: a floor,
+/// a camera, a light. `overrides` are the texts of `--set`, `a.b.c=value`, applied in order. `shadows` reads each light's `[light.shadow]`; [`crate::load`] has glumbra's own
 /// techniques read it.
 ///
 /// # Errors

@@ -64,7 +64,8 @@ impl ReadShadow for Techniques {
     }
 }
 
-/// Loads a scene (.toml), or a model (.obj, .md2) with a scene supplied around it, with its lights' shadow settings.
+/// Loads a scene (.toml), or a model (.obj, .md2, .gltf, .glb, .ply, .stl) with a scene supplied around it, with its lights'
+/// shadow settings.
 /// `overrides` are the texts of `--set`, `a.b.c=value`, applied in order.
 ///
 /// # Errors

@@ -50,3 +50,10 @@ pub enum Error {
     #[error(transparent)]
     Truth(#[from] truth_pictures::Error),
 }
+
+/// The first name that stands twice among the names of keys, in whatever case.
+#[cfg(test)]
+fn twice<'n>(names: impl Iterator<Item = &'n &'n str>) -> Option<String> {
+    let mut known = std::collections::HashSet::new();
+    names.map(|name| name.to_lowercase()).find(|name| !known.insert(name.clone()))
+}

@@ -132,11 +132,7 @@ mod tests {
 
     #[test]
     fn no_key_is_bound_twice() {
-        let mut names: Vec<String> = KEYS.iter().flat_map(|row| row.0.iter().map(|name| name.to_lowercase())).collect();
-        let count = names.len();
-        names.sort();
-        names.dedup();
-        assert_eq!(names.len(), count);
+        assert_eq!(crate::viewer::twice(KEYS.iter().flat_map(|row| row.0.iter())), None);
     }
 
     #[test]

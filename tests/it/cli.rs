@@ -688,7 +688,7 @@ fn a_floor_is_supplied_unless_it_is_not_wanted() {
     let without = glumbra(folder.path(), &["plan", &model, "--no-floor"]);
     assert!(without.stderr.is_empty() && !text(&without.stdout).contains("of quad"), "{}", text(&without.stderr));
     let scene = glumbra(folder.path(), &["plan", &boxes(), "--no-floor"]);
-    refusal(&scene, 1, "only a model (.obj) is supplied with a floor").unwrap();
+    refusal(&scene, 1, "only a model is supplied with a floor").unwrap();
 }
 
 #[test]

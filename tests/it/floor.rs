@@ -38,7 +38,7 @@ fn every_command_refuses_a_scene_without_floor() {
         let refused = glumbra(folder.path(), &[&[command[0], &scene, "--no-floor"], &command[1..]].concat());
         let error = text(&refused.stderr);
         assert_eq!(refused.status.code(), Some(1), "{command:?}: {error}");
-        assert!(error.contains("box.toml is a scene; only a model (.obj) is supplied with a floor"), "{error}");
+        assert!(error.contains("box.toml is a scene; only a model is supplied with a floor"), "{error}");
     }
     // Whichever of a report's scenes it is.
     let mixed = [&["report", &model, &scene, "--no-floor"], &COMMANDS[3][1..]].concat();

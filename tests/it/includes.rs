@@ -5,6 +5,7 @@ use std::path::Path;
 
 use glumbra::scene::{Error, Loaded};
 
+use crate::support::load_file;
 /// A room: a floor, a box on it, a light and two cameras.
 const ROOM: &str = r#"
 [image]
@@ -45,10 +46,6 @@ fn written(files: &[(&str, &str)]) -> tempfile::TempDir {
     folder
 }
 
-fn load(path: &Path, overrides: &[&str]) -> Result<Loaded, Error> {
-    glumbra::load(path, &overrides.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>())
-}
-
 /// All values of the scene, without the places where they are written.
 fn shown(loaded: Result<Loaded, Error>) -> String {
     let text = format!("{:?}", loaded.unwrap_or_else(|error| panic!("{error}")).scene);
@@ -59,7 +56,7 @@ fn shown(loaded: Result<Loaded, Error>) -> String {
 
 /// The error, with `folder` cut off the names of files.
 fn refused(folder: &Path, name: &str, overrides: &[&str]) -> String {
-    let error = load(&folder.join(name), overrides).expect_err("it is refused").to_string();
+    let error = load_file(&folder.join(name), overrides).expect_err("it is refused").to_string();
     error.replace(&format!("{}/", folder.display()), "")
 }
 
@@ -75,9 +72,9 @@ fn what_is_included_stands_before_and_is_overruled() {
         .replace("[image]", "[image]\nbackground = [0, 0, 0]");
     let flat = written(&[("scene.toml", &(whole + box_of_own))]);
     let (ours, theirs) = (folder.path().join("scene.toml"), flat.path().join("scene.toml"));
-    let expected = shown(load(&theirs, &[]));
+    let expected = shown(load_file(&theirs, &[]));
     assert!(expected.contains("size\", Entry { value: Integer(128)") && expected.len() > 1000, "{expected}");
-    assert_eq!(shown(load(&ours, &[])), expected);
+    assert_eq!(shown(load_file(&ours, &[])), expected);
     let text = fs::read_to_string(&ours).unwrap();
     assert_eq!(shown(glumbra::load_str(&text, folder.path(), &[])), expected);
 }
@@ -92,9 +89,9 @@ fn files_are_found_from_the_file_that_names_them() {
         ("sub/deep/light.toml", "include = \"../light.toml\"\n"),
         ("sub/light.toml", "[[light]]\nkind = \"point\"\nposition = [0, 1, 0]\n"),
     ]);
-    let loaded = load(&folder.path().join("scene.toml"), &[]).unwrap();
+    let loaded = load_file(&folder.path().join("scene.toml"), &[]).unwrap();
     assert_eq!((loaded.scene.objects.len(), loaded.scene.lights.len()), (1, 1));
-    let error = load(&folder.path().join("scene.toml"), &["light.cone=30"]).unwrap_err().to_string();
+    let error = load_file(&folder.path().join("scene.toml"), &["light.cone=30"]).unwrap_err().to_string();
     assert!(error.contains("no key of a point light"), "{error}");
 }
 
@@ -150,7 +147,7 @@ fn files_that_double_are_stopped() {
 fn one_of_several_cameras_is_chosen_by_its_name() {
     let folder = written(&[("room.toml", ROOM)]);
     let path = folder.path().join("room.toml");
-    let eye = |overrides: &[&str]| load(&path, overrides).unwrap().scene.camera.eye.to_array();
+    let eye = |overrides: &[&str]| load_file(&path, overrides).unwrap().scene.camera.eye.to_array();
     assert_eq!(eye(&[]), [0.0, 2.0, 6.0]);
     assert_eq!(eye(&["camera=above"]), [0.0, 8.0, 0.1]);
     assert_eq!(eye(&["camera.1.eye=[1, 9, 1]", "camera=above"]), [1.0, 9.0, 1.0]);

@@ -7,6 +7,8 @@ use std::sync::Arc;
 use glam::{DMat4, DVec3, dvec3};
 use glumbra::scene::{self, Error, Frustum, LightKind, LightShape, Loaded, Origin, Point, Scene, Value};
 
+use crate::support::load_file;
+
 /// The example scene with the model of [`folder`].
 fn example() -> String {
     include_str!("../../data/scenes/example.toml").replace("../meshes/dense.obj", "model.obj")
@@ -26,11 +28,6 @@ fn load(text: &str, overrides: &[&str]) -> Result<Loaded, Error> {
     let path = folder.path().join("scene.toml");
     fs::write(&path, text).unwrap();
     load_file(&path, overrides)
-}
-
-fn load_file(path: &Path, overrides: &[&str]) -> Result<Loaded, Error> {
-    let overrides: Vec<String> = overrides.iter().map(|text| (*text).to_owned()).collect();
-    glumbra::load(path, &overrides)
 }
 
 fn scene_of(text: &str, overrides: &[&str]) -> Scene {

@@ -73,13 +73,13 @@ fn draw_with_first_depths(call: &mut Call) {
 }
 
 /// Names of a shader's samplers of a type.
-fn samplers<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
+pub(super) fn samplers<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
     let declared = text.lines().filter_map(|line| line.trim().strip_prefix("uniform "));
     declared.filter_map(|line| words(line.strip_prefix(kind)?.strip_prefix(' ')?).next()).collect()
 }
 
 /// A fragment shader whose calls are changed, with functions of the driver's own before it.
-fn with_functions(source: &Source, text: String, functions: &str) -> Option<String> {
+pub(super) fn with_functions(source: &Source, text: String, functions: &str) -> Option<String> {
     let text = changed(source, text).filter(|_| source.stage == Stage::Fragment)?;
     Some(Source { text, ..*source }.with(functions))
 }

@@ -3,20 +3,9 @@
 
 use glow::HasContext;
 
+use super::apart_eight::{samplers, with_functions};
 use super::apart_seven_shaders::{changed, with_calls};
-use super::{Call, Source, Stage, words};
-
-/// Names of a shader's samplers of a type.
-fn samplers<'a>(text: &'a str, kind: &str) -> Vec<&'a str> {
-    let declared = text.lines().filter_map(|line| line.trim().strip_prefix("uniform "));
-    declared.filter_map(|line| words(line.strip_prefix(kind)?.strip_prefix(' ')?).next()).collect()
-}
-
-/// A fragment shader whose calls are changed, with functions of the driver's own before it.
-fn with_functions(source: &Source, text: String, functions: &str) -> Option<String> {
-    let text = changed(source, text).filter(|_| source.stage == Stage::Fragment)?;
-    Some(Source { text, ..*source }.with(functions))
-}
+use super::{Call, Source, Stage};
 
 /// Look-ups with two arguments in 2D textures, as `change` makes them of the sampler and the coordinates.
 fn flat_lookups(source: &Source, change: impl Fn(&str, &str) -> String) -> String {

@@ -161,7 +161,7 @@ impl Kept {
     }
 }
 
-/// An error in words that begin with a capital only if a file's name does.
+/// An error of a change, and what is shown in spite of it.
 fn told(error: &scene::Error) -> String {
     format!("{error} (the picture is that of before)")
 }

@@ -14,6 +14,7 @@ use glumbra::frame::Renderer;
 use glumbra::plan::Request;
 use glumbra::scene::Loaded;
 
+use crate::support::load_file;
 /// A scene's text before its objects.
 const START: &str = r#"
 [image]
@@ -33,8 +34,7 @@ translate = [0, -0.5, 0]
 "#;
 
 fn load(path: &Path, overrides: &[&str]) -> Loaded {
-    glumbra::load(path, &overrides.iter().map(|text| (*text).to_owned()).collect::<Vec<_>>())
-        .unwrap_or_else(|error| panic!("{error}"))
+    load_file(path, overrides).unwrap_or_else(|error| panic!("{error}"))
 }
 
 /// The error that a file gives.
