@@ -21,7 +21,7 @@ const WIDTH: u16 = 120;
                   glumbra keys kernel                 keys with that name, explained\n  \
                   glumbra keys --schema > scene.schema.json\n\n\
                   An editor with the TOML language server taplo completes and checks keys in a scene file \
-                  that begins with this line:\n  #:schema scene.schema.json"
+                  that begins with this line:\n\n  #:schema scene.schema.json"
 )]
 pub(super) struct KeysArgs {
     /// A key, a table, or a part of a name: light.shadow.size, shadow, size

@@ -60,8 +60,8 @@ fn help() -> String {
     format!(
         "{keys}
 
-The scene is read again when one of its files changes: the scene, what it includes,
-meshes, materials and pictures. While a file has an error, the error is shown over
+The scene is read again when one of its files changes: the scene, what it includes, \
+meshes, materials and pictures. While a file has an error, the error is shown over \
 the last picture. Nothing is drawn while nothing changes.
 
 A saved scene has absolute paths, and `glumbra render` draws it to the saved picture.
