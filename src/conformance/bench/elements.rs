@@ -69,7 +69,7 @@ pub struct GlElements<'a> {
     pub shader: Shader,
     pub attributes: &'a [GlAttribute<'a>],
     pub indices: GlIndices<'a>,
-    /// First index, and how many are drawn.
+    /// First index, and how many are drawn by [`Bench::draw_elements`].
     pub range: [u32; 2],
     pub primitive: GlPrimitive,
     /// Added to each index; 0: by glDrawElements, else by glDrawElementsBaseVertex.
@@ -117,6 +117,15 @@ impl Bench {
     ///
     /// As [`draw`](Self::draw).
     pub fn draw_elements(&self, draw: &GlElements) -> Result<(), Error> {
+        self.draw_ranges(draw, &[(draw.range, None)])
+    }
+
+    /// Draws ranges by an index buffer, one after the other. Before each the uniform vec3 `tint` may be set.
+    ///
+    /// # Errors
+    ///
+    /// As [`draw`](Self::draw).
+    pub fn draw_ranges(&self, draw: &GlElements, ranges: &[([u32; 2], Option<[f32; 3]>)]) -> Result<(), Error> {
         let program = self.program(draw.shader, false)?;
         let gl = &self.gl;
         self.prepare(draw.surface, draw.state);
@@ -148,10 +157,16 @@ impl Bench {
             gl.use_program(Some(program));
             gl.bind_vertex_array(Some(array));
             let mode = draw.primitive.code();
-            let [first, count] = draw.range.map(|index| index as i32);
-            match draw.base {
-                0 => gl.draw_elements(mode, count, kind, first * size),
-                base => gl.draw_elements_base_vertex(mode, count, kind, first * size, base),
+            let location = gl.get_uniform_location(program, "tint");
+            for (range, value) in ranges {
+                let [first, count] = range.map(|index| index as i32);
+                if let Some([x, y, z]) = *value {
+                    gl.uniform_3_f32(location.as_ref(), x, y, z);
+                }
+                match draw.base {
+                    0 => gl.draw_elements(mode, count, kind, first * size),
+                    base => gl.draw_elements_base_vertex(mode, count, kind, first * size, base),
+                }
             }
             gl.use_program(None);
         }

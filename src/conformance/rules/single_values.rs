@@ -1,7 +1,8 @@
 //! GL-K3: one value changes and all others stay [GL 4.6, 7.6.1, 17.3.3].
 
 use crate::conformance::bench::{
-    Error, GlCompare, GlDraw, GlFormat, GlState, GlStencil, GlStencilOp, GlUniform, Shader, Vertex, full, rectangle,
+    Error, GlAttribute, GlCompare, GlDraw, GlElements, GlFormat, GlIndices, GlPrimitive, GlState, GlStencil,
+    GlStencilOp, GlUniform, Shader, Vertex, full, rectangle,
 };
 use crate::conformance::{DriverUnderTest, Findings};
 
@@ -40,6 +41,36 @@ fn uniforms(numbers: &[f32]) -> [(&'static str, GlUniform); 7] {
 pub fn alone(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
     findings.part(|findings| numbers(subject, findings));
     findings.part(|findings| stencil(subject, findings));
+    findings.part(|findings| between_draws(subject, findings));
+    Ok(())
+}
+
+/// A vec3 that is set between draws of one vertex array, whose indices go on where those of the draw before end.
+fn between_draws(subject: &DriverUnderTest, findings: &mut Findings) -> Result<(), Error> {
+    const PARTS: u32 = 5;
+    let surface = subject.bench.surface([PARTS, 1], Some(GlFormat::Rgba32F), None)?;
+    let edge = |part: u32| 2.0 * part as f32 / PARTS as f32 - 1.0;
+    let positions: Vec<f32> = (0..PARTS)
+        .flat_map(|part| rectangle([edge(part), -1.0], [edge(part + 1), 1.0], 0.0, [0.0; 4]))
+        .flat_map(|vertex| vertex.position)
+        .collect();
+    let indices: Vec<u32> = (0..6 * PARTS).collect();
+    let color = |part: u32| [part as f32 + 0.5, -2.0 * part as f32, 8.0 - part as f32];
+    let draw = GlElements {
+        surface: &surface,
+        state: GlState { depth: None, ..GlState::WRITE },
+        shader: Shader { declarations: "uniform vec3 tint;", ..Shader::of("result = vec4(tint, 1.0);") },
+        attributes: &[GlAttribute { location: 0, components: 4, stride: 0, offset: 0, numbers: &positions }],
+        indices: GlIndices::Long(&indices),
+        range: [0, 0],
+        primitive: GlPrimitive::Triangles,
+        base: 0,
+    };
+    let ranges: Vec<_> = (0..PARTS).map(|part| ([6 * part, 6], Some(color(part)))).collect();
+    subject.bench.draw_ranges(&draw, &ranges)?;
+    let seen = surface.floats();
+    let wrong = (0..PARTS).zip(&seen).filter(|(part, seen)| seen[..3] != color(*part)).count();
+    findings.none_wrong("a vec3 between draws of adjoining indices", wrong, seen.len());
     Ok(())
 }
 
