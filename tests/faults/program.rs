@@ -1,10 +1,7 @@
 //! Tells which rules of `glumbra check` see each fault of `conformance::faults`, and which pictures it changes.
 //!
-//! `cargo run --release --example faults -- [--pictures] [--holes] [--write] [RULE...] [NAME...]`: all rules, or those of these
-//! ids, for each fault whose name or whose broken functions contain one of the names, or for all. `--holes`: only those that no
-//! rule sees by the table of `ci/drivers.md`; `--write`: puts the results of all rules into that table; `--pictures`: draws the
-//! scenes too; `--reduce`: no rules, but programs as by `glumbra check --reduce` for each fault and each rule that sees it by the
-//! table, held against the broken driver and the sound one. 1: a fault changes a picture and no rule, or a program is wrong.
+//! `cargo run --release --example faults -- --help` says how to ask. 1: a fault changes a picture and no rule, or a program of
+//! `--reduce` is wrong.
 
 mod judge;
 mod reduced;
@@ -12,9 +9,31 @@ mod reduced;
 use std::process::ExitCode;
 use std::time::Instant;
 
+use clap::Parser;
 use glumbra::conformance::TABLE;
 use glumbra::conformance::faults::{self, Fault};
 use judge::{END, MARKER, PAGE, Row, changed, each, red, rows, sound};
+
+/// Tells which rules of `glumbra check` see each fault of drivers, and which pictures it changes: all take an hour and more.
+#[derive(Parser)]
+struct Arguments {
+    /// Rules by their ids (GL-X7), and faults by a part of their names or of the functions that they break; all without
+    #[arg(value_name = "RULE|NAME")]
+    chosen: Vec<String>,
+    /// Only faults that no rule sees by the table of ci/drivers.md
+    #[arg(long)]
+    holes: bool,
+    /// Draws the scenes too
+    #[arg(long)]
+    pictures: bool,
+    /// Puts the results of all rules into the table of ci/drivers.md
+    #[arg(long)]
+    write: bool,
+    /// Runs no rules, but programs as `glumbra check --reduce` writes them, for each fault and each rule that sees it by the
+    /// table, held against the broken driver and the sound one
+    #[arg(long)]
+    reduce: bool,
+}
 
 /// The table's text, from all faults and what is known of them.
 fn table(known: &[Row]) -> String {
@@ -34,36 +53,41 @@ fn table(known: &[Row]) -> String {
 }
 
 fn main() -> ExitCode {
-    let (options, names): (Vec<_>, Vec<_>) = std::env::args().skip(1).partition(|argument| argument.starts_with("--"));
-    let (ids, names): (Vec<_>, Vec<_>) = names.into_iter().partition(|name| name.starts_with("GL-"));
-    let has = |option: &str| options.iter().any(|given| given == option);
-    if has("--write") && !ids.is_empty() {
+    let arguments = Arguments::parse();
+    let (ids, names): (Vec<_>, Vec<_>) = arguments.chosen.iter().cloned().partition(|name| name.starts_with("GL-"));
+    if arguments.write && !ids.is_empty() {
         eprintln!("--write: the table has the results of all rules; leave {} out", ids.join(" "));
+        return ExitCode::FAILURE;
+    }
+    if let Some(id) = ids.iter().find(|id| TABLE.iter().all(|rule| rule.id != id.as_str())) {
+        eprintln!("{id}: no such rule; `glumbra check --list` names them");
         return ExitCode::FAILURE;
     }
     let page = std::fs::read_to_string(PAGE).unwrap_or_default();
     let mut known = rows(&page);
     let is_hole = |fault: &Fault| known.iter().all(|row| row.fault != fault.name || row.red.is_empty());
-    let named = |fault: &Fault| {
-        let meant = |name: &String| {
-            fault.name.contains(name.as_str()) || fault.breaks.iter().any(|broken| broken.contains(name.as_str()))
-        };
-        names.is_empty() || names.iter().any(meant)
+    let is_meant_by = |fault: &Fault, name: &str| {
+        fault.name.contains(name) || fault.breaks.iter().any(|broken| broken.contains(name))
     };
-    let chosen: Vec<_> = faults::all().filter(|fault| named(fault) && (!has("--holes") || is_hole(fault))).collect();
-    if has("--reduce") {
+    if let Some(name) = names.iter().find(|name| !faults::all().any(|fault| is_meant_by(fault, name))) {
+        eprintln!("{name}: no fault has it in its name or in what it breaks");
+        return ExitCode::FAILURE;
+    }
+    let named = |fault: &Fault| names.is_empty() || names.iter().any(|name| is_meant_by(fault, name));
+    let chosen: Vec<_> = faults::all().filter(|fault| named(fault) && (!arguments.holes || is_hole(fault))).collect();
+    if arguments.reduce {
         return if reduced::all(&chosen, &known) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
     }
     // Rules by their ids: those among the names that begin with GL-.
     let is_meant = |rule: &&glumbra::conformance::Rule| ids.is_empty() || ids.iter().any(|id| id == rule.id);
     let rules: Vec<_> = TABLE.iter().filter(is_meant).collect();
     println!("a sound driver: {:?} fail", red(None, &rules, false));
-    let scenes = if has("--pictures") { sound() } else { Vec::new() };
+    let scenes = if arguments.pictures { sound() } else { Vec::new() };
     println!("{} faults, {} rules, {} scenes", chosen.len(), rules.len(), scenes.len());
     let start = Instant::now();
     let results = each(&chosen, |fault| {
         let red: Vec<_> = red(Some(fault), &rules, false).into_iter().map(str::to_owned).collect();
-        let differ = has("--pictures").then(|| changed(fault, &scenes));
+        let differ = arguments.pictures.then(|| changed(fault, &scenes));
         println!("{}: {}; {}", fault.name, red.join(" "), differ.clone().unwrap_or_default().join(", "));
         Row { fault: fault.name.to_owned(), red, changed: differ.map(|scenes| scenes.len()) }
     });
@@ -80,7 +104,7 @@ fn main() -> ExitCode {
         row.changed = row.changed.or(before.and_then(|before| before.changed));
         known.push(row);
     }
-    if has("--write") {
+    if arguments.write {
         let (before, rest) = page.split_once(MARKER).expect("the marker");
         let (_, after) = rest.split_once(END).expect("the end's marker");
         std::fs::write(PAGE, format!("{before}{MARKER}\n\n{}\n{END}{after}", table(&known))).expect("the page");
