@@ -31,7 +31,8 @@ pub struct LightView<'a> {
     pub index: usize,
     /// That light, the photograph's camera, or what a part of its lens sends.
     pub source: &'a Light,
-    /// True if a view shows the light's map or volumes: then all of it is drawn, not only what the picture needs.
+    /// True if more than the camera's picture of what the light reaches shows the light's map or volumes, as a view of the map
+    /// does: then all of it is drawn.
     pub shown_whole: bool,
     /// True if things that no picture can show are drawn too, to prove that they change none.
     pub keep_all: bool,

@@ -226,3 +226,41 @@ fn what_is_not_closed_cannot_be_declared_so() {
         assert!(error.contains("open.toml:3") && error.contains(message), "{error}");
     }
 }
+
+/// Texels that the camera looks up nowhere are not drawn, whatever the light, the eye and the settings: the picture is that of
+/// the whole map, and of the shade alone too.
+#[test]
+fn texels_that_nothing_is_compared_with_change_no_pixel() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(&context);
+    let settings = [
+        "size = 256",
+        "size = 64\nkernel = 7",
+        "size = 128\nbias = \"normal-offset\"\nkernel = 3",
+        "size = 128\nbias = \"receiver-plane\"\nkernel = 5",
+        "size = 128\nbias = \"adaptive\"",
+        "size = 96\nfilter = \"nearest\"\ntransfer = \"copy\"",
+        "size = 128\norder = \"gequal\"",
+        "size = 128\nfit = \"casters\"",
+        "size = 128\nguard = \"none\"",
+        "size = 128\nmipmaps = \"8-tap\"",
+        "size = 128\naddressing = \"direct3d\"",
+    ];
+    let mut random = fastrand::Rng::with_seed(29);
+    let mut scissored = 0;
+    for number in 0..66 {
+        let mut place = |low: f64, high: f64| low + (high - low) * random.f64();
+        let eye = [place(-9.0, 9.0), place(0.3, 9.0), place(-9.0, 9.0)];
+        let light = [place(-12.0, 12.0), place(0.5, 14.0), place(-12.0, 12.0)];
+        let scene =
+            field(eye, light, place(20.0, 140.0), &format!("technique = \"shadow-map\"\n{}", settings[number % 11]));
+        let pictures = [false, true].map(|keep_all| {
+            let plan = renderer.plan(&scene, &Request { keep_all, ..Request::default() }).unwrap();
+            scissored += usize::from(plan.list.passes.iter().any(|pass| pass.scissor().is_some()));
+            renderer.draw(&plan).unwrap();
+            renderer.read(&plan).unwrap().picture
+        });
+        assert!(pictures[0] == pictures[1], "eye {eye:?}, light {light:?}, {}", settings[number % 11]);
+    }
+    assert!(scissored > 20, "only {scissored} maps were drawn in part: the test shows nothing");
+}

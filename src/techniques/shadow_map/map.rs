@@ -27,7 +27,7 @@ pub(super) fn map_info(view: &FrustumView<'_>, settings: &Settings, texels: f64)
 }
 
 /// The secant of the angle between the axis and the corner of the frustum; 1 for parallel light.
-fn slant(projector: &Projector) -> f64 {
+pub(super) fn slant(projector: &Projector) -> f64 {
     match projector.rays {
         Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),
         Rays::Along(_) => 1.0,
