@@ -240,7 +240,7 @@ fn texels_that_nothing_is_compared_with_change_no_pixel() {
         "size = 128\nbias = \"receiver-plane\"\nkernel = 5",
         "size = 128\nbias = \"adaptive\"",
         "size = 96\nfilter = \"nearest\"\ntransfer = \"copy\"",
-        "size = 128\norder = \"gequal\"",
+        "size = 128\ncompare = \"gequal\"",
         "size = 128\nfit = \"casters\"",
         "size = 128\nguard = \"none\"",
         "size = 128\nmipmaps = \"8-tap\"",

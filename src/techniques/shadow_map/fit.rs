@@ -8,10 +8,9 @@ use glam::{DVec2, DVec3, DVec4};
 
 use super::bias;
 use super::casters::may_cast;
-use super::map::slant;
 use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings};
 use crate::lights::caster_culling::Unseen;
-use crate::lights::projector::Rays;
+use crate::lights::projector::{Projector, Rays};
 use crate::lights::{Crop, Drawable, FrustumView, Notes};
 use crate::math::Aabb;
 use crate::math::frustum::{self, clip_polygon};
@@ -198,4 +197,12 @@ pub fn lookup_texels(settings: &Settings, slant: f64) -> f64 {
         texels *= 2.0;
     }
     texels
+}
+
+/// The secant of the angle between the axis and the corner of the frustum; 1 for parallel light.
+pub fn slant(projector: &Projector) -> f64 {
+    match projector.rays {
+        Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),
+        Rays::Along(_) => 1.0,
+    }
 }

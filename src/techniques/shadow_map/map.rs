@@ -17,20 +17,12 @@ pub(super) fn map_info(view: &FrustumView<'_>, settings: &Settings, texels: f64)
         format: settings.format,
         texel: bias::texel_at_one(&view.projector, settings),
         texel_short: bias::texel_sides_at_one(&view.projector, settings).min_element(),
-        reach_texels: fit::lookup_texels(settings, slant(&view.projector)),
+        reach_texels: fit::lookup_texels(settings, fit::slant(&view.projector)),
         bias: settings.bias,
         cull: settings.cull,
         polygon: PolygonOffset { factor: 0.0, units: 0.0 },
         texels,
         middle: false,
-    }
-}
-
-/// The secant of the angle between the axis and the corner of the frustum; 1 for parallel light.
-pub(super) fn slant(projector: &Projector) -> f64 {
-    match projector.rays {
-        Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),
-        Rays::Along(_) => 1.0,
     }
 }
 
