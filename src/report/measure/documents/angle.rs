@@ -16,6 +16,8 @@ use crate::truth;
 
 const SOURCE: &str = "HSM, Figure 6, dueling frusta";
 
+const UNIT: &str = "wrong facing the light, in %";
+
 /// Pixels of the longer side of each picture.
 const SIDES: [u32; 2] = [160, 320];
 
@@ -29,13 +31,24 @@ pub(super) fn measure(
     tick: &mut impl FnMut(&str),
 ) -> (Vec<Claimed>, Vec<ClaimSweep>) {
     let step = if request.quick { 45 } else { 15 };
-    let mut point = |degrees: u32| {
+    let angles: Vec<f64> = (0..=180).step_by(step).map(f64::from).collect();
+    let mut at = |degrees: &f64| -> Number {
         tick(&format!("{degrees} degrees between eye and light"));
-        let wrong = at_angle(request, f64::from(degrees)).and_then(|scene| wrong_percent(&scene, request, renderer));
-        let setting = format!("{degrees}° between eye and light");
-        ClaimPoint { x: f64::from(degrees), measured: super::number((setting, wrong)) }
+        at_angle(request, *degrees).and_then(|scene| wrong_percent(&scene, request, renderer))
     };
-    let points: Vec<ClaimPoint> = (0..=180).step_by(step).map(&mut point).collect();
+    let measured: Vec<Number> = angles.iter().map(&mut at).collect();
+    let (claim, sweep) = of_angles(request, &angles, &measured);
+    let sweeps = if sweep.series[0].pairs().is_empty() { Vec::new() } else { vec![sweep] };
+    (vec![claim], sweeps)
+}
+
+/// The claim and its sweep.
+fn of_angles(request: &ClaimRequest<'_>, angles: &[f64], measured: &[Number]) -> (Claimed, ClaimSweep) {
+    let point = |(degrees, value): (&f64, &Number)| ClaimPoint {
+        x: *degrees,
+        measured: super::number((format!("{degrees}° between eye and light"), value.clone())),
+    };
+    let points: Vec<ClaimPoint> = angles.iter().zip(measured).map(point).collect();
     let mut series = ClaimSeries { name: String::from("shadow map"), points, fit: String::new() };
     let pairs = series.pairs();
     series.fit = statement(&pairs).unwrap_or_default();
@@ -46,16 +59,16 @@ pub(super) fn measure(
             false => Ok(chosen.iter().sum::<f64>() / chosen.len() as f64),
         }
     };
-    let claim = Said {
+    let said = Said {
         technique: "shadow-map",
         source: SOURCE,
         says: "is more wrong where eye and light look towards each other than where they look the same way",
-        quantity: "wrong facing the light, %, mean over the angles",
-    }
-    .compare(
+        quantity: UNIT,
+    };
+    let claim = said.compare(
         Relation::Greater,
-        (String::from("angles above 90°"), mean(|angle| angle > 90.0)),
-        (String::from("angles up to 90°"), mean(|angle| angle <= 90.0)),
+        (String::from("mean over the angles above 90°"), mean(|angle| angle > 90.0)),
+        (String::from("mean over the angles up to 90°"), mean(|angle| angle <= 90.0)),
     );
     let sweep = ClaimSweep {
         name: String::from("dueling frusta"),
@@ -67,11 +80,10 @@ pub(super) fn measure(
         ),
         x: String::from("angle between eye and light, in degrees"),
         is_even: true,
-        y: String::from("wrong facing the light, in %"),
+        y: UNIT.to_owned(),
         series: vec![series],
     };
-    let sweeps = if pairs.is_empty() { Vec::new() } else { vec![sweep] };
-    (vec![claim], sweeps)
+    (claim, sweep)
 }
 
 /// The fit in words.
@@ -79,11 +91,12 @@ fn statement(pairs: &[[f64; 2]]) -> Option<String> {
     let fit = line(pairs)?;
     let [slope, least, greatest] = [fit.slope, fit.range[0], fit.range[1]].map(|slope| plain(90.0 * slope));
     let words = match (fit.range[0] > 0.0, fit.range[1] < 0.0) {
-        (true, _) => "the wrong share grows with the angle",
-        (_, true) => "the wrong share falls with the angle",
-        _ => "a straight line through it may be level",
+        (true, _) => "grows with the angle",
+        (_, true) => "falls with the angle",
+        _ => "neither grows nor falls beyond its scatter",
     };
-    Some(format!("{words}: {slope} percentage points in 90°, 95 % range {least} to {greatest}, {} angles", pairs.len()))
+    let count = pairs.len();
+    Some(format!("{words}: by {slope} percentage points in 90°, 95 % range {least} to {greatest}, {count} angles"))
 }
 
 /// The scene with its light `degrees` away from the eye, seen from the point that the camera looks at.
@@ -92,9 +105,7 @@ fn at_angle(request: &ClaimRequest<'_>, degrees: f64) -> Result<Scene, String> {
         format!("technique = \"shadow-map\", size = {TEXELS}, filter = \"nearest\", kernel = 1, mipmaps = false");
     let mut scene = with_keys(request.scene, request.light, &keys)?;
     let camera = scene.camera.clone();
-    let [width, height] = scene.image.size;
-    let side = SIDES[usize::from(!request.quick)].min(width.max(height));
-    scene.image.size = [width, height].map(|own| (own * side / width.max(height)).max(1));
+    scene.image.size = small(scene.image.size, request.quick);
     let light = scene.lights.get_mut(request.light).ok_or("there is no such light")?;
     let LightKind::Spot(spot) = &mut light.kind else {
         return Err(String::from("only a spotlight has a frustum that faces the eye"));
@@ -108,6 +119,13 @@ fn at_angle(request: &ClaimRequest<'_>, degrees: f64) -> Result<Scene, String> {
     spot.frustum.up = turn * up;
     (spot.image, spot.beam) = (None, None);
     Ok(scene)
+}
+
+/// A picture's size with its longer side shortened to [`SIDES`].
+pub(super) fn small(size: [u32; 2], quick: bool) -> [u32; 2] {
+    let longer = size[0].max(size[1]).max(1);
+    let side = SIDES[usize::from(!quick)].min(longer);
+    size.map(|own| (own * side / longer).max(1))
 }
 
 /// The axis that turns the way to the eye over the top, and what is up for a light beside the eye.
@@ -151,9 +169,9 @@ mod tests {
     #[test]
     fn the_fit_says_whether_it_grows() {
         let pairs = |slope: f64| [0.0, 45.0, 90.0, 135.0].map(|x| [x, 1.0 + slope * x]);
-        assert!(statement(&pairs(0.02)).unwrap().starts_with("the wrong share grows with the angle: 1.8 percentage"));
-        assert!(statement(&pairs(-0.01)).unwrap().starts_with("the wrong share falls"));
-        assert!(statement(&[[0.0, 1.0], [45.0, 4.0], [90.0, 1.0]]).unwrap().starts_with("a straight line"));
+        assert!(statement(&pairs(0.02)).unwrap().starts_with("grows with the angle: by 1.8 percentage points in 90°"));
+        assert!(statement(&pairs(-0.01)).unwrap().starts_with("falls with"));
+        assert!(statement(&[[0.0, 1.0], [45.0, 4.0], [90.0, 1.0]]).unwrap().starts_with("neither"));
         assert_eq!(statement(&[[0.0, 1.0]]), None);
     }
 }

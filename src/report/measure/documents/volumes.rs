@@ -4,6 +4,7 @@
 
 use glam::{DMat4, DVec4};
 
+use super::angle::small;
 use super::{ClaimRequest, Number, Said, depths, with_keys};
 use crate::device::{Measure, Pixels};
 use crate::frame::{Renderer, ShadeImage};
@@ -15,8 +16,9 @@ use crate::report::measure::paired::{PairedTimes, in_turn};
 use crate::report::numbers::plain;
 use crate::report::store::claim_sweep::{ClaimPoint, ClaimSeries, ClaimSweep};
 use crate::report::store::claimed::{ClaimVerdict, Claimed};
-use crate::scene::Scene;
+use crate::scene::{Camera, Scene};
 use crate::techniques::claims::Relation;
+use crate::truth::{self, Truth};
 use crate::views::View;
 
 const COUNTING: &str = "GDC, \"For Shadow Volumes With Intersecting Polygons\"";
@@ -176,21 +178,7 @@ pub(super) fn far_planes(request: &ClaimRequest<'_>, renderer: &mut Renderer) ->
             (String::from("method = \"z-fail\", which has its far plane at infinity"), at_infinity.clone()),
         ),
     ];
-    let mut wrong = |cut: bool| -> Number {
-        let mut plan = plan_of(infinite.as_ref().map_err(Clone::clone)?, request, renderer)?;
-        if cut && cut_by_far(&mut plan, request.scene) == 0 {
-            return Err(String::from("no caster's volume is seen"));
-        }
-        wrong_percent(request, &plan, renderer)
-    };
-    claims.push(
-        said(FAR, "a far plane that cuts volumes spoils the count behind what is seen", "wrong facing the light, %")
-            .compare(
-                Relation::Greater,
-                (format!("method = \"z-fail\" under {near_far}"), wrong(true)),
-                (String::from("the same with the far plane at infinity"), wrong(false)),
-            ),
-    );
+    claims.push(cut(request, renderer));
     let point = |(factor, number): &(f64, Number)| ClaimPoint {
         x: *factor,
         measured: super::number((format!("camera.far = {}", request.scene.camera.far * factor), number.clone())),
@@ -233,10 +221,69 @@ fn codes(scene: &Scene, light: usize, renderer: &mut Renderer) -> Number {
     }
 }
 
-/// Gives passes of the camera, which have their far plane at infinity, the scene's finite one. Returns the number of draws
-/// that it changed.
-pub fn cut_by_far(plan: &mut Plan, scene: &Scene) -> usize {
-    let finite_from_infinite = finite_from_infinite(scene.camera.near, scene.camera.far);
+/// Wrong pixels under a far plane just beyond what is seen. From beside the light, looking along its rays, most of what is in
+/// shadow has the far ends of volumes behind it; from elsewhere a ray leaves a volume through its sides.
+fn cut(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> Claimed {
+    let seen = beside_the_light(request).and_then(|scene| {
+        let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
+        let truth = truth::trace(&scene, request.light, &options).map_err(|error| error.to_string())?;
+        Ok((scene, truth))
+    });
+    let far = seen.as_ref().map_or(0.0, |(scene, truth)| beyond_the_seen(scene, truth));
+    let mut wrong = |cut: bool| -> Number {
+        let (scene, truth) = seen.as_ref().map_err(Clone::clone)?;
+        let request = ClaimRequest { scene, truth, ..*request };
+        let mut plan = plan_of(scene, &request, renderer)?;
+        if cut && cut_by_far(&mut plan, [scene.camera.near, far]) == 0 {
+            return Err(String::from("no caster's volume is seen"));
+        }
+        wrong_percent(&request, &plan, renderer)
+    };
+    let settings = |far: &str| format!("method = \"z-fail\", seen from beside the light, {far}");
+    Said {
+        technique: "shadow-volume",
+        source: FAR,
+        says: "a far plane that cuts volumes spoils the count behind what is seen",
+        quantity: "wrong facing the light, %",
+    }
+    .compare(
+        Relation::Greater,
+        (settings(&format!("camera.far = {}, just beyond what is seen", plain(far))), wrong(true)),
+        (settings("with its far plane at infinity"), wrong(false)),
+    )
+}
+
+/// The scene seen from a tenth of the light's distance above the light.
+fn beside_the_light(request: &ClaimRequest<'_>) -> Result<Scene, String> {
+    let mut scene = with_keys(request.scene, request.light, INFINITE)?;
+    let light = scene.lights.get(request.light).ok_or("there is no such light")?;
+    let frustum = light.frustum().ok_or("only a spotlight looks along its rays")?;
+    let ahead = frustum.target - frustum.position;
+    let above = ahead.cross(frustum.up).cross(ahead).normalize();
+    scene.camera = Camera {
+        eye: frustum.position + 0.1 * ahead.length() * above,
+        target: frustum.target,
+        up: frustum.up,
+        fov_y_radians: frustum.cone_radians,
+        near: frustum.near,
+        far: 2.0 * frustum.far,
+    };
+    scene.image.size = small(scene.image.size, request.quick);
+    Ok(scene)
+}
+
+/// Distance of a far plane a hundredth beyond the farthest surface that is seen.
+fn beyond_the_seen(scene: &Scene, truth: &Truth) -> f64 {
+    let camera = &scene.camera;
+    let ahead = (camera.target - camera.eye).normalize();
+    let distances = truth.pixels.iter().filter_map(|pixel| Some((pixel.hit?.position - camera.eye).dot(ahead)));
+    1.01 * distances.fold(camera.near, f64::max)
+}
+
+/// Gives passes of the camera, which have their far plane at infinity, a finite one; both planes by their distances. Returns
+/// the number of draws that it changed.
+pub fn cut_by_far(plan: &mut Plan, [near, far]: [f64; 2]) -> usize {
+    let finite_from_infinite = finite_from_infinite(near, far);
     let targets: Vec<_> = camera_targets(plan);
     let mut changed = 0;
     for pass in &mut plan.list.passes {
