@@ -157,7 +157,7 @@ fn draw(
         change.apply(&mut scene).map_err(|reason| Error::Skin { id: entry.id.clone(), reason })?;
     }
     let mut plan = renderer.plan(&scene, &Request::default()).map_err(failed)?;
-    make(fault, &mut plan).ok_or_else(|| Error::NoFault { id: entry.id.clone() })?;
+    make(fault, &mut plan, &scene).ok_or_else(|| Error::NoFault { id: entry.id.clone() })?;
     renderer.draw(&plan).map_err(failed)?;
     let pixels = renderer.read(&plan).map_err(failed)?.picture;
     let picture = to_rgb(&pixels);
@@ -209,9 +209,9 @@ pub fn facing_errors(
 }
 
 /// Makes a mistake in the passes; `None`: they have nothing that it changes.
-fn make(fault: Option<Fault>, plan: &mut Plan) -> Option<()> {
+fn make(fault: Option<Fault>, plan: &mut Plan, scene: &Scene) -> Option<()> {
     match fault {
-        Some(fault) if fault.change().is_none() => (fault.apply(plan) > 0).then_some(()),
+        Some(fault) if fault.change().is_none() => (fault.apply(plan, &scene.camera) > 0).then_some(()),
         _ => Some(()),
     }
 }
@@ -225,7 +225,7 @@ fn shade(
 ) -> Result<ShadeImage, crate::frame::Error> {
     let views = vec![ViewRequest { view: View::Shade, light }];
     let mut plan = renderer.plan(scene, &Request { views, sampled_warnings: false, ..Request::default() })?;
-    make(fault, &mut plan);
+    make(fault, &mut plan, scene);
     renderer.draw(&plan)?;
     let texels = match renderer.read(&plan)?.views.pop() {
         Some(Pixels::RgbaF32 { data, .. }) => data,

@@ -7,6 +7,8 @@ use serde::Deserialize;
 use crate::figures::SceneChange;
 use crate::pass::{Batch, Chunk, DrawPass, Filter, PassList, UniformValue, Work, glsl};
 use crate::plan::Plan;
+use crate::report::measure::documents::cut_by_far;
+use crate::scene::Camera;
 
 /// A mistake.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -20,6 +22,8 @@ pub enum Fault {
     AveragedDepths,
     /// Shadow volumes without their near and far caps.
     Uncapped,
+    /// Volumes counted behind what is seen, under the scene's own far plane.
+    FiniteFar,
     /// T and B turned around where the skin is mirrored.
     TangentsTurned,
     /// Smaller levels of a normal map made of unit length, without dimming.
@@ -37,7 +41,10 @@ impl Fault {
     }
 
     /// Edits the passes; returns how many batches or draws it changed.
-    pub fn apply(self, plan: &mut Plan) -> usize {
+    pub fn apply(self, plan: &mut Plan, camera: &Camera) -> usize {
+        if self == Self::FiniteFar {
+            return cut_by_far(plan, [camera.near, camera.far]);
+        }
         let eye_from_world = plan.matrices.eye_from_world;
         let passes = draw_passes(&mut plan.list);
         match self {
@@ -47,7 +54,7 @@ impl Fault {
             }),
             Self::AveragedDepths => each_batch(passes, average_depths),
             Self::Uncapped => passes.map(|pass| pass.batches.iter_mut().map(without_caps).sum::<usize>()).sum(),
-            Self::TangentsTurned | Self::Undimmed => 0,
+            Self::FiniteFar | Self::TangentsTurned | Self::Undimmed => 0,
         }
     }
 }
