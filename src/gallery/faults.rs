@@ -40,6 +40,11 @@ impl Fault {
         }
     }
 
+    /// Tests whether nothing may be left out: volumes that end just beyond what is seen lie before the far plane.
+    pub fn keeps_all(self) -> bool {
+        self == Self::FiniteFar
+    }
+
     /// Edits the passes; returns how many batches or draws it changed.
     pub fn apply(self, plan: &mut Plan, camera: &Camera) -> usize {
         if self == Self::FiniteFar {

@@ -34,7 +34,7 @@ pub(super) fn counting(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> V
     let [parity, counted] = &scenes;
     let said = |says, quantity| Said { technique: "shadow-volume", source: COUNTING, says, quantity };
     let wrong = |scene: &Result<Scene, String>, renderer: &mut Renderer| -> Number {
-        wrong_percent(request, &plan_of(scene.as_ref().map_err(Clone::clone)?, request, renderer)?, renderer)
+        wrong_percent(request, &plan_of(scene.as_ref().map_err(Clone::clone)?, request, false, renderer)?, renderer)
     };
     let drawn = |scene: &Result<Scene, String>, renderer: &mut Renderer| -> Number {
         fragments(scene.as_ref().map_err(Clone::clone)?, renderer)
@@ -76,9 +76,10 @@ pub(super) fn counting(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> V
     vec![is_wrong, fills, costs]
 }
 
-fn plan_of(scene: &Scene, request: &ClaimRequest<'_>, renderer: &mut Renderer) -> Result<Plan, String> {
+/// `keep_all`: volumes reach to infinity; else the plan ends them just beyond all that is seen.
+fn plan_of(scene: &Scene, request: &ClaimRequest<'_>, keep_all: bool, renderer: &mut Renderer) -> Result<Plan, String> {
     let views = vec![ViewRequest { view: View::Shade, light: request.light }];
-    let request = Request { views, sampled_warnings: false, ..Request::default() };
+    let request = Request { views, keep_all, sampled_warnings: false, ..Request::default() };
     renderer.plan(scene, &request).map_err(|error| error.to_string())
 }
 
@@ -221,7 +222,8 @@ fn codes(scene: &Scene, light: usize, renderer: &mut Renderer) -> Number {
     }
 }
 
-/// Wrong pixels under a far plane just beyond what is seen. From beside the light, looking along its rays, most of what is in
+/// Wrong pixels under a far plane just beyond what is seen, of volumes that reach to infinity: the plan would end them before
+/// it. From beside the light, looking along its rays, most of what is in
 /// shadow has the far ends of volumes behind it; from elsewhere a ray leaves a volume through its sides.
 fn cut(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> Claimed {
     let seen = beside_the_light(request).and_then(|scene| {
@@ -233,13 +235,13 @@ fn cut(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> Claimed {
     let mut wrong = |cut: bool| -> Number {
         let (scene, truth) = seen.as_ref().map_err(Clone::clone)?;
         let request = ClaimRequest { scene, truth, ..*request };
-        let mut plan = plan_of(scene, &request, renderer)?;
+        let mut plan = plan_of(scene, &request, true, renderer)?;
         if cut && cut_by_far(&mut plan, [scene.camera.near, far]) == 0 {
             return Err(String::from("no caster's volume is seen"));
         }
         wrong_percent(&request, &plan, renderer)
     };
-    let settings = |far: &str| format!("method = \"z-fail\", seen from beside the light, {far}");
+    let settings = |far: &str| format!("method = \"z-fail\", volumes to infinity, seen from beside the light, {far}");
     Said {
         technique: "shadow-volume",
         source: FAR,
