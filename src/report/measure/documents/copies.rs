@@ -75,17 +75,22 @@ fn times(
     times.map_err(|error| error.to_string())
 }
 
-/// The plan with the copied depth buffer in another format.
-pub(super) fn from_buffer(plan: &Plan, format: DepthFormat) -> Result<Plan, String> {
+fn from_buffer(plan: &Plan, format: DepthFormat) -> Result<Plan, String> {
+    let mut plan = plan.clone();
+    match copy_from(&mut plan, format) {
+        true => Ok(plan),
+        false => Err(String::from("no map is copied: no caster lies in the light's frustum")),
+    }
+}
+
+/// Gives the depth buffer that a plan copies first another format. `false`: it copies none.
+pub fn copy_from(plan: &mut Plan, format: DepthFormat) -> bool {
     let copied = plan.list.passes.iter().find_map(|pass| match pass.work {
         Work::CopyDepth { from, .. } => Some(from),
         Work::Draw(_) => None,
     });
-    let copied = copied.ok_or("no map is copied: no caster lies in the light's frustum")?;
-    let mut plan = plan.clone();
-    let desc = plan.list.images.get_mut(copied.0).ok_or("the copied image is not listed")?;
-    desc.format = Format::Depth(format);
-    Ok(plan)
+    let desc = copied.and_then(|copied| plan.list.images.get_mut(copied.0));
+    desc.map(|desc| desc.format = Format::Depth(format)).is_some()
 }
 
 fn time_of_copy(plan: &Plan, renderer: &mut Renderer) -> Result<f64, frame::Error> {

@@ -8,6 +8,7 @@ mod mipmaps;
 mod same_grid;
 mod volumes;
 
+pub use copies::copy_from;
 pub use volumes::cut_by_far;
 
 use super::claims::{in_words, judge};
