@@ -28,7 +28,11 @@ pub fn draw(drawn: &DrawnSide) -> Option<Diagram> {
     let way = |part: f64| axis + (2.0 * part - 1.0) * across * axis.perp();
     let rays: Vec<Ray> = (0..RAYS).map(|index| meet(&cuts, way((index as f64 + 0.5) / RAYS as f64))).collect();
     // Where a point lies in shadow the farthest of what is met is it; the clearest case has the largest gap.
-    let gap = |ray: &&Ray| ray.depths.last().zip(ray.depths.first()).map_or(0.0, |(far, near)| far - near);
+    // A caster is entered and left: of more than three lines the last lies under something else, where no eye sees it.
+    let gap = |ray: &&Ray| match (&ray.depths[..], ray.depths.len() <= 3) {
+        ([near, .., far], true) => far - near,
+        _ => 0.0,
+    };
     let shadowed = rays.iter().max_by(|one, other| gap(one).total_cmp(&gap(other))).filter(|ray| gap(ray) > 0.0)?;
     let lit = rays.iter().filter(|ray| ray.depths.len() == 1).max_by(|one, other| {
         let apart = |ray: &Ray| ray.way.distance(shadowed.way);
