@@ -282,6 +282,6 @@ mod tests {
         let [drawn, averaged] = [&levels.drawn[2], &levels.averaged[2]];
         assert!(drawn.depths.iter().zip(&averaged.depths).all(|(a, b)| (a - b).abs() < 1e-12));
         let sweeps = levels.sweeps();
-        assert!(sweeps[0].series[0].fit.contains("to the power 1.00"), "{}", sweeps[0].series[0].fit);
+        assert!(sweeps[0].series[0].fit.contains("to the power 1.0"), "{}", sweeps[0].series[0].fit);
     }
 }
