@@ -13,11 +13,12 @@ use super::screen::Screen;
 use super::{ContextArgs, Error};
 use crate::context::{self, Profile};
 use crate::frame::Renderer;
+use crate::report::measure::documents::ClaimRequest;
 use crate::report::measure::grid::{self, Grid};
 use crate::report::measure::picks::Goals;
 use crate::report::measure::run::{self, MeasureOptions, Sweep};
 use crate::report::measure::sweeps::MeasuredSweep;
-use crate::report::measure::{claims, light_claims, picks};
+use crate::report::measure::{claims, documents, light_claims, picks};
 use crate::report::show::html::ReportPictures;
 use crate::report::store::journal::{self, Journal, Known};
 use crate::report::store::results::{Outcome, Report, Row, SceneReport, VERSION};
@@ -177,7 +178,7 @@ pub fn run(arguments: &ReportArgs, screen: Screen) -> Result<(), Error> {
     let mut swept = Vec::new();
     if arguments.grid.is_none() && options.shard.0 == 1 && !stop.load(Ordering::Relaxed) {
         swept = measure_light((&sweeps, screen), &mut report, arguments.quick, &options)?;
-        measure_claims((&sweeps, screen), &mut report, &options)?;
+        measure_claims((&sweeps, screen), &mut report, arguments.quick, &options)?;
     }
     let pictures = draw_pictures((&sweeps, &swept), &mut report, &options, &goals)?;
     write::write_all(&folder, &report, &pictures, &goals)?;
@@ -311,6 +312,7 @@ fn measure(
 fn measure_claims(
     (sweeps, screen): (&[Sweep], Screen),
     report: &mut Report,
+    quick: bool,
     options: &MeasureOptions,
 ) -> Result<(), Error> {
     let context = context::open(&options.context)?;
@@ -323,7 +325,15 @@ fn measure_claims(
         let (light, band) = (options.light, options.band_texels);
         let is_shaded = scene.unshaded.is_none() && !light_claims::has_lens(&sweep.scene, light);
         if is_shaded {
-            scene.claims = claims::measure(&run::in_clear_air(&sweep.scene), light, &sweep.truth, band, &mut renderer)?;
+            let clear = run::in_clear_air(&sweep.scene);
+            scene.claims = claims::measure(&clear, light, &sweep.truth, band, &mut renderer)?;
+            let request = ClaimRequest { scene: &clear, light, truth: &sweep.truth, quick };
+            let further = documents::measure(&request, &mut renderer, |what| {
+                bar.set_message(format!("{}: {what}", sweep.report.path.display()));
+                bar.tick();
+            });
+            scene.claims.extend(further.claims);
+            scene.claim_sweeps = further.sweeps;
         }
         scene.claims.extend(light_claims::measure(&sweep.scene, light, &scene.sweeps, &mut renderer)?);
     }

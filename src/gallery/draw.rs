@@ -156,8 +156,8 @@ fn draw(
     if let Some(change) = fault.and_then(Fault::change) {
         change.apply(&mut scene).map_err(|reason| Error::Skin { id: entry.id.clone(), reason })?;
     }
-    let mut plan = renderer.plan(&scene, &Request::default()).map_err(failed)?;
-    make(fault, &mut plan).ok_or_else(|| Error::NoFault { id: entry.id.clone() })?;
+    let mut plan = renderer.plan(&scene, &request(fault, Vec::new())).map_err(failed)?;
+    make(fault, &mut plan, &scene).ok_or_else(|| Error::NoFault { id: entry.id.clone() })?;
     renderer.draw(&plan).map_err(failed)?;
     let pixels = renderer.read(&plan).map_err(failed)?.picture;
     let picture = to_rgb(&pixels);
@@ -208,10 +208,15 @@ pub fn facing_errors(
     Ok((facing, difference_picture(truth, &shade).map_err(judged)?))
 }
 
+/// A plan that the fault can be made in.
+fn request(fault: Option<Fault>, views: Vec<ViewRequest>) -> Request {
+    Request { views, keep_all: fault.is_some_and(Fault::keeps_all), ..Request::default() }
+}
+
 /// Makes a mistake in the passes; `None`: they have nothing that it changes.
-fn make(fault: Option<Fault>, plan: &mut Plan) -> Option<()> {
+fn make(fault: Option<Fault>, plan: &mut Plan, scene: &Scene) -> Option<()> {
     match fault {
-        Some(fault) if fault.change().is_none() => (fault.apply(plan) > 0).then_some(()),
+        Some(fault) if fault.change().is_none() => (fault.apply(plan, &scene.camera) > 0).then_some(()),
         _ => Some(()),
     }
 }
@@ -224,8 +229,8 @@ fn shade(
     renderer: &mut Renderer,
 ) -> Result<ShadeImage, crate::frame::Error> {
     let views = vec![ViewRequest { view: View::Shade, light }];
-    let mut plan = renderer.plan(scene, &Request { views, sampled_warnings: false, ..Request::default() })?;
-    make(fault, &mut plan);
+    let mut plan = renderer.plan(scene, &Request { sampled_warnings: false, ..request(fault, views) })?;
+    make(fault, &mut plan, scene);
     renderer.draw(&plan)?;
     let texels = match renderer.read(&plan)?.views.pop() {
         Some(Pixels::RgbaF32 { data, .. }) => data,

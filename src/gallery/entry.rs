@@ -109,11 +109,15 @@ pub enum DiagramKind {
     Transforms,
     /// A cut through shadow volumes with their counts.
     Volumes,
-    /// The light's frustum along its axis [HSM, Figure 1].
+    /// The light's frustum along its axis.
     Frustum,
+    /// The two depths that are compared, in shadow and in the light [HSM, Figure 1].
+    Comparison,
+    /// A projected picture, a surface and the eye's screen [Segal 1992, Figures 1 and 2].
+    Projected,
     /// The same with the mirrored frustum behind the light.
     BackProjection,
-    /// Equal steps on the screen, and on a surface [Segal 1992, Figures 1 and 2].
+    /// Equal steps on the screen, and on a surface [Segal 1992, Figure 2].
     Perspective,
     /// The two depth ranges of the ledge.
     Ledge,

@@ -5,8 +5,10 @@ use glam::{DVec4, Vec4};
 use serde::Deserialize;
 
 use crate::figures::SceneChange;
-use crate::pass::{Batch, Chunk, DrawPass, Filter, PassList, UniformValue, Work, glsl};
+use crate::pass::{Batch, Chunk, DepthFormat, DrawPass, Filter, PassList, UniformValue, Work, glsl};
 use crate::plan::Plan;
+use crate::report::measure::documents::{copy_from, cut_by_far};
+use crate::scene::Camera;
 
 /// A mistake.
 #[derive(Clone, Copy, Debug, Deserialize, PartialEq, Eq)]
@@ -20,6 +22,12 @@ pub enum Fault {
     AveragedDepths,
     /// Shadow volumes without their near and far caps.
     Uncapped,
+    /// Volumes counted behind what is seen, under the scene's own far plane.
+    FiniteFar,
+    /// A map of 24 bits copied from a depth buffer of 16.
+    NarrowCopy,
+    /// A cube map's comparison that takes the depth along the one axis also where a lookup reaches the next face.
+    Seams,
     /// T and B turned around where the skin is mirrored.
     TangentsTurned,
     /// Smaller levels of a normal map made of unit length, without dimming.
@@ -36,8 +44,19 @@ impl Fault {
         }
     }
 
+    /// Tests whether nothing may be left out: volumes that end just beyond what is seen lie before the far plane.
+    pub fn keeps_all(self) -> bool {
+        self == Self::FiniteFar
+    }
+
     /// Edits the passes; returns how many batches or draws it changed.
-    pub fn apply(self, plan: &mut Plan) -> usize {
+    pub fn apply(self, plan: &mut Plan, camera: &Camera) -> usize {
+        if self == Self::FiniteFar {
+            return cut_by_far(plan, [camera.near, camera.far]);
+        }
+        if self == Self::NarrowCopy {
+            return usize::from(copy_from(plan, DepthFormat::Depth16));
+        }
         let eye_from_world = plan.matrices.eye_from_world;
         let passes = draw_passes(&mut plan.list);
         match self {
@@ -47,7 +66,8 @@ impl Fault {
             }),
             Self::AveragedDepths => each_batch(passes, average_depths),
             Self::Uncapped => passes.map(|pass| pass.batches.iter_mut().map(without_caps).sum::<usize>()).sum(),
-            Self::TangentsTurned | Self::Undimmed => 0,
+            Self::Seams => each_batch(passes, without_seams),
+            Self::FiniteFar | Self::NarrowCopy | Self::TangentsTurned | Self::Undimmed => 0,
         }
     }
 }
@@ -98,6 +118,14 @@ fn average_depths(batch: &mut Batch) -> bool {
         (input.sampler.compare, input.sampler.filter) = (None, Filter::Linear);
     }
     true
+}
+
+/// The shader does not look where faces meet.
+fn without_seams(batch: &mut Batch) -> bool {
+    let before = batch.program.defines.len();
+    batch.program.defines.retain(|define| define.name() != "SEAMS");
+    batch.uniforms.retain(|uniform| !uniform.name.starts_with("seam_"));
+    batch.program.defines.len() < before
 }
 
 /// Number of draws that are left out.

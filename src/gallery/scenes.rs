@@ -3,7 +3,7 @@
 use crate::figures::embedded;
 use crate::scene::Embedded;
 
-static SCENES: [Embedded; 19] = [
+static SCENES: [Embedded; 20] = [
     embedded!("offset.toml"),
     embedded!("layers.toml"),
     embedded!("boxes.toml"),
@@ -23,6 +23,7 @@ static SCENES: [Embedded; 19] = [
     embedded!("stretched.toml"),
     embedded!("gallery/", "fence.toml"),
     embedded!("gallery/", "ring.toml"),
+    embedded!("gallery/", "boxes-below.toml"),
 ];
 
 /// The scene of this path in the repository; `None`: it is not compiled in.

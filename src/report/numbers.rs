@@ -42,6 +42,12 @@ pub fn grouped(value: u64) -> String {
     text
 }
 
+/// Text with its first letter in upper case.
+pub fn first_upper(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
+}
+
 #[cfg(test)]
 mod tests {
     use super::*;

@@ -78,6 +78,7 @@ pub fn scene(path: &str, fingerprint: &str) -> SceneReport {
         colors_from: None,
         saved: None,
         sweeps: Vec::new(),
+        claim_sweeps: Vec::new(),
         claims: vec![claimed(0.2, ClaimVerdict::Holds), claimed(0.9, ClaimVerdict::Fails)],
         grid_rows: rows.len(),
         rows,

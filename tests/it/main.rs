@@ -20,6 +20,7 @@ mod compare;
 mod contexts;
 mod coverage;
 mod doc_comments;
+mod document_claims;
 mod documents;
 mod doubt;
 mod dust;

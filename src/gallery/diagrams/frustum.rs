@@ -1,5 +1,5 @@
 //! A cut along the light's axis: its frustum, what it falls on, and the mirrored frustum behind it, where q is negative
-//! [HSM, Figure 1; LEC, "Careful about Back Projecting Shadow Maps"].
+//! [LEC, "Careful about Back Projecting Shadow Maps"].
 
 use glam::{DVec2, dvec2};
 

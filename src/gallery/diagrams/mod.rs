@@ -1,9 +1,11 @@
 //! Diagrams as SVG, each drawn from the numbers of an entry's scenes. A file a family; `svg.rs` writes elements, `section.rs`
 //! cuts the scene by a plane.
 
+mod comparison;
 mod frustum;
 mod ledge;
 mod perspective;
+mod projected;
 mod section;
 mod svg;
 mod texels;
@@ -33,6 +35,8 @@ pub fn draw(kind: DiagramKind, shown: &ShownEntry) -> Vec<Diagram> {
         }
         DiagramKind::BackProjection => frustum::draw(&shown.cure, true).into_iter().collect(),
         DiagramKind::Perspective => perspective::draw(&shown.cure).into_iter().collect(),
+        DiagramKind::Comparison => comparison::draw(&shown.cure).into_iter().collect(),
+        DiagramKind::Projected => projected::draw(&shown.cure).into_iter().collect(),
         DiagramKind::Ledge => ledge::draw(&shown.cure).into_iter().collect(),
         DiagramKind::Volumes => volumes::draw(&shown.cure).into_iter().collect(),
     }

@@ -1,5 +1,5 @@
 //! Equal steps on the screen against steps on a surface: why a projected texture is divided at each pixel
-//! [Segal 1992, 2 and Figures 1 and 2].
+//! [Segal 1992, 2 and Figure 2].
 
 use glam::{DVec2, DVec3, dvec2};
 

@@ -48,10 +48,7 @@ pub fn measure(
                 says: claim.says.to_owned(),
                 quantity: name(claim.quantity).to_owned(),
                 verdict: judge(claim.relation, &first, &second),
-                relation: match claim.relation {
-                    Relation::AtMost(times) => format!("at most {} ×", plain(times)),
-                    Relation::Greater => String::from("more than"),
-                },
+                relation: in_words(claim.relation),
                 first,
                 second,
                 ratio_range: None,
@@ -59,6 +56,14 @@ pub fn measure(
         }
     }
     Ok(claimed)
+}
+
+/// The relation in words.
+pub(super) fn in_words(relation: Relation) -> String {
+    match relation {
+        Relation::AtMost(times) => format!("at most {} ×", plain(times)),
+        Relation::Greater => String::from("more than"),
+    }
 }
 
 fn name(quantity: Quantity) -> &'static str {
@@ -73,7 +78,7 @@ fn name(quantity: Quantity) -> &'static str {
     }
 }
 
-fn judge(relation: Relation, first: &Measurement, second: &Measurement) -> ClaimVerdict {
+pub(super) fn judge(relation: Relation, first: &Measurement, second: &Measurement) -> ClaimVerdict {
     let (Some(a), Some(b)) = (first.value, second.value) else { return ClaimVerdict::Unknown };
     let holds = match relation {
         Relation::AtMost(times) => a <= times * b,
@@ -195,7 +200,7 @@ impl Contest<'_> {
 }
 
 /// Matrix to texels and depths in [0, 1].
-fn window_from_world(scene: &Scene, light: usize, size: u32) -> Option<DMat4> {
+pub(super) fn window_from_world(scene: &Scene, light: usize, size: u32) -> Option<DMat4> {
     let clip_from_world = scene.lights[light].frustum()?.clip_from_world();
     let half = 0.5 * f64::from(size);
     let scale = DMat4::from_scale(DVec3::new(half, half, 0.5));
@@ -203,7 +208,7 @@ fn window_from_world(scene: &Scene, light: usize, size: u32) -> Option<DMat4> {
 }
 
 /// GL's maximum depth slope of the plane that a pixel shows [GL 4.6, 14.6.5]: a projection maps planes to planes.
-fn slope(hit: &Hit, window_from_world: &DMat4) -> f64 {
+pub(super) fn slope(hit: &Hit, window_from_world: &DMat4) -> f64 {
     let plane: DVec4 = hit.normal.extend(-hit.normal.dot(hit.position));
     let plane = window_from_world.inverse().transpose() * plane;
     (plane.x / plane.z).abs().max((plane.y / plane.z).abs())

@@ -1,4 +1,4 @@
-//! Fits of a power law to measured errors: error = a · count^-p, a line in logarithms.
+//! Fits to measured errors: a power law, error = a · count^-p, which is a line in logarithms; and a straight line.
 
 use serde::{Deserialize, Serialize};
 
@@ -25,17 +25,42 @@ pub fn power_law(pairs: &[[f64; 2]]) -> Option<PowerFit> {
     if count < 3 {
         return None;
     }
-    let mean = |k: usize| logs.iter().map(|log| log[k]).sum::<f64>() / count as f64;
+    let (slope, reach) = slope_of(&logs)?;
+    Some(PowerFit { exponent: -slope, range: [-slope - reach, -slope + reach], points: count })
+}
+
+/// A fitted straight line: y = a + slope · x.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct LineFit {
+    /// Growth of y per unit of x.
+    pub slope: f64,
+    /// Range that holds the slope in 95 of 100 such fits, if errors scatter around the line by a normal distribution.
+    pub range: [f64; 2],
+}
+
+/// Fits a straight line by least squares. `None`: fewer than three pairs, or all x are equal.
+pub fn line(pairs: &[[f64; 2]]) -> Option<LineFit> {
+    if pairs.len() < 3 {
+        return None;
+    }
+    let (slope, reach) = slope_of(pairs)?;
+    Some(LineFit { slope, range: [slope - reach, slope + reach] })
+}
+
+/// Slope of at least three pairs, and the half width of its 95 % range.
+fn slope_of(pairs: &[[f64; 2]]) -> Option<(f64, f64)> {
+    let count = pairs.len();
+    let mean = |k: usize| pairs.iter().map(|pair| pair[k]).sum::<f64>() / count as f64;
     let (x, y) = (mean(0), mean(1));
-    let spread: f64 = logs.iter().map(|log| (log[0] - x).powi(2)).sum();
+    let spread: f64 = pairs.iter().map(|pair| (pair[0] - x).powi(2)).sum();
     if spread <= 0.0 {
         return None;
     }
-    let slope = logs.iter().map(|log| (log[0] - x) * (log[1] - y)).sum::<f64>() / spread;
-    let left: f64 = logs.iter().map(|log| (log[1] - y - slope * (log[0] - x)).powi(2)).sum();
+    let slope = pairs.iter().map(|pair| (pair[0] - x) * (pair[1] - y)).sum::<f64>() / spread;
+    let left: f64 = pairs.iter().map(|pair| (pair[1] - y - slope * (pair[0] - x)).powi(2)).sum();
     let error = (left / (count - 2) as f64 / spread).sqrt();
     let reach = STUDENT.get(count - 3).copied().unwrap_or(1.96) * error;
-    Some(PowerFit { exponent: -slope, range: [-slope - reach, -slope + reach], points: count })
+    Some((slope, reach))
 }
 
 #[cfg(test)]
@@ -51,6 +76,17 @@ mod tests {
             assert!((fit.exponent - exponent).abs() < 1e-12, "{fit:?}");
             assert!((fit.range[1] - fit.range[0]).abs() < 1e-6, "{fit:?}");
         }
+    }
+
+    #[test]
+    fn a_straight_line_is_found_with_its_range() {
+        let fit = line(&[[0.0, 1.0], [1.0, 3.0], [2.0, 5.0]]).unwrap();
+        assert!((fit.slope - 2.0).abs() < 1e-12 && fit.range[1] - fit.range[0] < 1e-9, "{fit:?}");
+        // Residuals -1/3, 2/3, -1/3: their square sum 2/3 over one degree of freedom and a spread of 2.
+        let fit = line(&[[0.0, 0.0], [1.0, 1.0], [2.0, 0.0]]).unwrap();
+        assert!(fit.slope.abs() < 1e-12 && (fit.range[1] - 12.706 / 3.0_f64.sqrt()).abs() < 1e-9, "{fit:?}");
+        assert_eq!(line(&[[0.0, 0.0], [1.0, 1.0]]), None);
+        assert_eq!(line(&[[1.0, 0.0]; 3]), None);
     }
 
     /// Fits of scattered errors have the true exponent in their range 95 times in 100.

@@ -55,7 +55,7 @@ const NO_MORE: f64 = 1.1;
 
 /// Tests whether the first time is more than the second: all of the ratio's range is above 1. `None`: the range begins
 /// at 1 or below and ends above [`NO_MORE`].
-fn is_more(times: &PairedTimes) -> Option<bool> {
+pub(super) fn is_more(times: &PairedTimes) -> Option<bool> {
     let [least, greatest] = times.ratio_range;
     match (least > 1.0, greatest <= NO_MORE) {
         (true, _) => Some(true),

@@ -2,6 +2,7 @@
 
 pub mod claims;
 mod costs;
+pub mod documents;
 pub mod fit;
 pub mod grid;
 pub mod light_claims;

@@ -36,21 +36,36 @@ pub fn paired(
 ) -> Result<PairedTimes, frame::Error> {
     let request = Request { frames: 100, sampled_warnings: false, ..Request::default() };
     let plans = [renderer.plan(first, &request)?, renderer.plan(second, &request)?];
+    in_turn(rounds, |which| {
+        // Uploads what the other one's frame has replaced.
+        renderer.draw_timed(&plans[which], 1, false, || ())?;
+        let mut least = f64::INFINITY;
+        for _ in 0..FRAMES {
+            if redrawn {
+                renderer.device().forget();
+            }
+            let frames = renderer.draw_timed(&plans[which], 1, false, || ())?.frames_ms;
+            least = frames.into_iter().fold(least, f64::min);
+        }
+        Ok(least)
+    })
+}
+
+/// Times two works in turn, `rounds` times; which of the two is first alternates. `time` does the first (0) or the second
+/// (1) and returns its milliseconds.
+///
+/// # Errors
+///
+/// An error of `time`.
+pub fn in_turn(
+    rounds: usize,
+    mut time: impl FnMut(usize) -> Result<f64, frame::Error>,
+) -> Result<PairedTimes, frame::Error> {
     let mut times = [Vec::new(), Vec::new()];
     for round in 0..rounds.max(1) {
         for turn in 0..2 {
             let which = (round + turn) % 2;
-            // Uploads what the other one's frame has replaced.
-            renderer.draw_timed(&plans[which], 1, false, || ())?;
-            let mut least = f64::INFINITY;
-            for _ in 0..FRAMES {
-                if redrawn {
-                    renderer.device().forget();
-                }
-                let frames = renderer.draw_timed(&plans[which], 1, false, || ())?.frames_ms;
-                least = frames.into_iter().fold(least, f64::min);
-            }
-            times[which].push(least);
+            times[which].push(time(which)?);
         }
     }
     let ratios: Vec<f64> = times[0].iter().zip(&times[1]).map(|(first, second)| first / second).collect();

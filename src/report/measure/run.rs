@@ -117,6 +117,7 @@ pub fn prepare(path: &Path, overrides: &[String], grid: &Grid, options: &Measure
         colors_from: colors.as_ref().map(|colors| colors.from.clone()),
         saved: None,
         claims: Vec::new(),
+        claim_sweeps: Vec::new(),
         sweeps: Vec::new(),
         grid_rows: rows.len(),
         rows: Vec::new(),

@@ -50,8 +50,10 @@ pub enum ClaimVerdict {
     Fails,
     /// Times do not, on this machine.
     FailsHere,
-    /// One of the numbers is missing.
+    /// One of the numbers is missing, or their spread is too wide.
     Unknown,
+    /// The scene, or how it is measured, has nothing that shows it.
+    NotMeasured,
 }
 
 impl ClaimVerdict {
@@ -62,6 +64,7 @@ impl ClaimVerdict {
             Self::Fails => "does not hold",
             Self::FailsHere => "not on this machine",
             Self::Unknown => "not known",
+            Self::NotMeasured => "not measured here",
         }
     }
 }

@@ -6,6 +6,7 @@
 
 use std::fmt::Write;
 
+use super::claimed::{Claimed, Measurement};
 use super::results::{Measured, Outcome, PassCost, Report, Row, SceneReport, Spread};
 use super::swept::PointOutcome;
 use crate::judge::colors::ColorErrors;
@@ -47,6 +48,56 @@ pub fn sweeps_to_csv(report: &Report) -> Option<String> {
         }
     }
     report.scenes.iter().any(|scene| !scene.sweeps.is_empty()).then_some(text)
+}
+
+/// Claims of the documents, one line for each; `None`: no scene has one.
+pub fn claims_to_csv(report: &Report) -> Option<String> {
+    let mut text = String::new();
+    let side = |name: &str| ["settings", "value", "why"].map(|what| format!("{name}_{what}"));
+    let first = ["scene", "technique", "source", "says", "quantity"].map(str::to_owned);
+    let last = ["ratio", "ratio_least", "ratio_greatest", "verdict"].map(str::to_owned);
+    let names = first.into_iter().chain(side("first")).chain(["relation".to_owned()]).chain(side("second")).chain(last);
+    push_line(&mut text, names);
+    let number = |value: Option<f64>| value.map_or_else(String::new, |value| value.to_string());
+    let measured =
+        |side: &Measurement| [side.settings.clone(), number(side.value), side.why.clone().unwrap_or_default()];
+    for (scene, claim) in report.scenes.iter().flat_map(|scene| scene.claims.iter().map(move |claim| (scene, claim))) {
+        let Claimed { technique, source, says, quantity, .. } = claim.clone();
+        let first = [scene.path.display().to_string(), technique, source, says, quantity];
+        let range = [0, 1].map(|end| number(claim.ratio_range.map(|range| range[end])));
+        let relation = [claim.relation.clone()];
+        let last = [number(claim.ratio())].into_iter().chain(range).chain([claim.verdict.name().to_owned()]);
+        let both = measured(&claim.first).into_iter().chain(relation).chain(measured(&claim.second));
+        push_line(&mut text, first.into_iter().chain(both).chain(last));
+    }
+    report.scenes.iter().any(|scene| !scene.claims.is_empty()).then_some(text)
+}
+
+/// Sweeps that claims rest on, one line for each point; `None`: no scene has one.
+pub fn claim_sweeps_to_csv(report: &Report) -> Option<String> {
+    let mut text = String::new();
+    let names = ["scene", "sweep", "source", "series", "setting", "x_quantity", "x", "y_quantity", "y", "why"];
+    push_line(&mut text, names.map(str::to_owned));
+    for scene in &report.scenes {
+        for sweep in &scene.claim_sweeps {
+            for (series, point) in sweep.series.iter().flat_map(|series| series.points.iter().map(move |p| (series, p)))
+            {
+                let path = scene.path.display().to_string();
+                let value = point.measured.value.map_or_else(String::new, |value| value.to_string());
+                let first = [path, sweep.name.clone(), sweep.source.clone(), series.name.clone()];
+                let point_cells = [
+                    point.measured.settings.clone(),
+                    sweep.x.clone(),
+                    point.x.to_string(),
+                    sweep.y.clone(),
+                    value,
+                    point.measured.why.clone().unwrap_or_default(),
+                ];
+                push_line(&mut text, first.into_iter().chain(point_cells));
+            }
+        }
+    }
+    report.scenes.iter().any(|scene| !scene.claim_sweeps.is_empty()).then_some(text)
 }
 
 fn point_cells(outcome: &PointOutcome) -> Vec<String> {

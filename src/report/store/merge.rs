@@ -191,6 +191,7 @@ fn join_scene(scene: &SceneReport, parts: &[(PathBuf, Report)]) -> Result<SceneR
                     // The first part alone measures them.
                     if known.claims.is_empty() {
                         known.claims.clone_from(&other.claims);
+                        known.claim_sweeps.clone_from(&other.claim_sweeps);
                     }
                     if known.sweeps.is_empty() {
                         known.sweeps.clone_from(&other.sweeps);

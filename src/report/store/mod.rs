@@ -1,5 +1,6 @@
 //! A report as data and as files.
 
+pub mod claim_sweep;
 pub mod claimed;
 pub mod csv;
 pub mod fingerprint;

@@ -4,6 +4,7 @@ use std::path::{Path, PathBuf};
 
 use serde::{Deserialize, Serialize, Serializer};
 
+use super::claim_sweep::ClaimSweep;
 use super::claimed::Claimed;
 pub use super::spread::Spread;
 use super::swept::LightSweep;
@@ -79,6 +80,9 @@ pub struct SceneReport {
     /// Claims of the documents, measured here.
     #[serde(default)]
     pub claims: Vec<Claimed>,
+    /// Sweeps that claims rest on.
+    #[serde(default)]
+    pub claim_sweeps: Vec<ClaimSweep>,
     /// Errors of pictures over the keys of projected light.
     pub sweeps: Vec<LightSweep>,
     /// Rows of the whole grid, of which [`Self::rows`] may be a part.

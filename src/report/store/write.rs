@@ -1,5 +1,5 @@
 //! A report as files in a folder: `report.json`, `report.csv`, `sweeps.csv` where there are sweeps of projected light,
-//! `report.html`, `plots/*.svg` and `pictures/*.png`.
+//! `claims.csv` and `claim-sweeps.csv` where claims were measured, `report.html`, `plots/*.svg` and `pictures/*.png`.
 //!
 //! Each is made in memory, written under another name, synced and renamed, so that a full disk or a kill leaves the older
 //! report or the newer one, never half of one.
@@ -60,6 +60,11 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &ReportPictures, goal
             let path = folder.join("plots").join(plot_name(index + 1, scene, kind));
             files.extend(svg.map(|svg| (path, svg.into_bytes())));
         }
+        for sweep in &scene.claim_sweeps {
+            let svg = plots::claim_sweep(scene, &report.machine, sweep).map_err(plot)?;
+            let path = folder.join("plots").join(plot_name(index + 1, scene, &format!("{}-{}", sweep.name, KINDS[4])));
+            files.extend(svg.map(|svg| (path, svg.into_bytes())));
+        }
         for sweep in &scene.sweeps {
             for (measure, kind) in [(Measure::Rmse, KINDS[2]), (Measure::Flip, KINDS[3])] {
                 let svg = plots::sweep(scene, &report.machine, sweep, measure).map_err(plot)?;
@@ -69,8 +74,10 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &ReportPictures, goal
             }
         }
     }
-    let sweeps = folder.join("sweeps.csv");
-    files.extend(csv::sweeps_to_csv(report).map(|text| (sweeps.clone(), text.into_bytes())));
+    let tables = [csv::sweeps_to_csv(report), csv::claims_to_csv(report), csv::claim_sweeps_to_csv(report)];
+    for (name, text) in TABLES.iter().zip(tables) {
+        files.extend(text.map(|text| (folder.join(name), text.into_bytes())));
+    }
     let kept_pictures = picture_files::files(folder, report, pictures);
     make_folder(&folder.join("plots"))?;
     if !kept_pictures.is_empty() {
@@ -79,13 +86,17 @@ pub fn write_all(folder: &Path, report: &Report, pictures: &ReportPictures, goal
     files.extend(kept_pictures);
     write_files(&files)?;
     let written: HashSet<&Path> = files.iter().map(|(path, _)| path.as_path()).collect();
-    remove_stale(folder, &written, |name| name == "sweeps.csv")?;
+    remove_stale(folder, &written, |name| TABLES.contains(&name))?;
     remove_stale(&folder.join("plots"), &written, is_plot)?;
     remove_stale(&picture_files::folder_in(folder), &written, picture_files::is_picture)
 }
 
+/// Tables that a report may have beside its rows.
+const TABLES: [&str; 3] = ["sweeps.csv", "claims.csv", "claim-sweeps.csv"];
+
 /// The plots of a scene.
-const KINDS: [&str; 4] = ["error-against-time", "error-against-map-size", "rmse-against-time", "flip-against-time"];
+const KINDS: [&str; 5] =
+    ["error-against-time", "error-against-map-size", "rmse-against-time", "flip-against-time", "claim"];
 
 fn is_plot(name: &str) -> bool {
     let is_numbered = name.split_once('-').is_some_and(|(number, _)| number.parse::<usize>().is_ok());
@@ -172,7 +183,7 @@ mod tests {
         let report = samples::report();
         write(&folder, &report).unwrap();
         write(&folder, &report).unwrap();
-        assert_eq!(names(&folder), ["plots", "report.csv", "report.html", "report.json"]);
+        assert_eq!(names(&folder), ["claims.csv", "plots", "report.csv", "report.html", "report.json"]);
         let plots = ["1-main-error-against-map-size.svg", "1-main-error-against-time.svg"];
         assert_eq!(names(&folder.join("plots")), plots);
         assert_eq!(merge::load(&folder).unwrap(), report);

@@ -40,7 +40,7 @@ pub(super) fn section(
     }
     text += &figures(scene, pictures);
     text += &sweeps::section(scene, machine, pictures);
-    text += &claims::section(scene);
+    text += &claims::section(scene, machine);
     text += &saved_text(scene);
     text += &format!("<h3>All {} rows</h3>\n{}", scene.rows.len(), band_text(scene));
     text += &table::table(scene, number, &marks(scene, &times, goals));

@@ -12,7 +12,12 @@ pub(crate) struct PlotAxis {
     pub minor: Vec<f64>,
     /// Place of zeros, below the least value; `None` without zeros.
     pub floor: Option<f64>,
+    /// Length of an even axis, whose values are shifted and scaled into the range's logarithms; `None`: it is logarithmic.
+    pub even: Option<f64>,
 }
+
+/// Decades of a logarithmic axis that an even one takes the place of.
+const DECADES: f64 = 2.0;
 
 impl PlotAxis {
     /// An axis over values not below zero; `None` if there are none.
@@ -27,7 +32,32 @@ impl PlotAxis {
         let lowest_tick = floor.map_or(range.start, |floor| 1.8 * floor);
         let (ticks, minor) = ticks(lowest_tick..range.end);
         let ticks = floor.into_iter().chain(ticks).collect();
-        (!values.is_empty()).then_some(Self { range, ticks, minor, floor })
+        (!values.is_empty()).then_some(Self { range, ticks, minor, floor, even: None })
+    }
+
+    /// An even axis from 0 to the greatest of `values`, with a tick at each of them; `None` if none is above 0.
+    pub fn even(values: &[f64]) -> Option<Self> {
+        let length = values.iter().copied().filter(|value| value.is_finite()).fold(0.0, f64::max);
+        let axis = Self {
+            range: 0.8..1.25 * 10_f64.powf(DECADES),
+            ticks: Vec::new(),
+            minor: Vec::new(),
+            floor: None,
+            even: Some(length),
+        };
+        let mut ticks: Vec<f64> = values.iter().map(|value| axis.place(*value)).collect();
+        ticks.sort_by(f64::total_cmp);
+        ticks.dedup();
+        (length > 0.0).then_some(Self { ticks, ..axis })
+    }
+
+    /// Value at a place of the axis.
+    pub fn value(&self, place: f64) -> f64 {
+        match self.even {
+            // Rounded to what was placed.
+            Some(length) => 1e-6 * (1e6 * length * place.log10() / DECADES).round(),
+            None => place,
+        }
     }
 
     /// An axis with a tick at each of `values`, and none between.
@@ -38,7 +68,11 @@ impl PlotAxis {
 
     /// Place of a value on the axis.
     pub fn place(&self, value: f64) -> f64 {
-        if value > 0.0 { value } else { self.floor.unwrap_or(self.range.start) }
+        match self.even {
+            Some(length) => 10_f64.powf(DECADES * value / length),
+            None if value > 0.0 => value,
+            None => self.floor.unwrap_or(self.range.start),
+        }
     }
 }
 

@@ -113,8 +113,8 @@ fn draw_axes<'a>(root: &Root<'a>, words: &Words<'_>, [x, y]: [&PlotAxis; 2]) -> 
         .build_cartesian_2d(coordinates(x), coordinates(y))
         .map_err(failed)?;
     let label = |axis: &PlotAxis| {
-        let floor = axis.floor;
-        move |value: &f64| if floor == Some(*value) { "0".to_owned() } else { plain(*value) }
+        let axis = axis.clone();
+        move |value: &f64| if axis.floor == Some(*value) { "0".to_owned() } else { plain(axis.value(*value)) }
     };
     chart
         .configure_mesh()

@@ -5,6 +5,7 @@
 
 pub(crate) mod axis;
 pub(crate) mod canvas;
+mod claims;
 mod sweeps;
 
 use std::path::Path;
@@ -14,6 +15,7 @@ use crate::report::numbers::{grouped, plain};
 use crate::report::store::results::{Machine, Measured, Row, SceneReport};
 use axis::PlotAxis;
 use canvas::{Marker, PlotCanvas, Words};
+pub use claims::claim_sweep;
 pub use sweeps::{Measure, sweep};
 
 /// Reason why a plot could not be drawn.

@@ -3,7 +3,7 @@
 use super::axis::PlotAxis;
 use super::canvas::{self, Marker, PlotCanvas, Words};
 use super::{Error, captions, file_name};
-use crate::report::numbers::plain;
+use crate::report::numbers::{first_upper, plain};
 use crate::report::store::results::{Machine, SceneReport};
 use crate::report::store::swept::{LightSweep, PointErrors, SweepPoint};
 
@@ -132,9 +132,4 @@ fn tip(place: &Place<'_>, measure: Measure) -> String {
         Measure::Flip => format!("FLIP {error}"),
     };
     format!("{}: {error}, {least} to {greatest} ms", place.point.setting)
-}
-
-fn first_upper(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| first.to_uppercase().chain(letters).collect())
 }
