@@ -153,6 +153,7 @@ fn textures(count: usize, technique: &str) -> String {
 fn hidden(count: usize, technique: &str) -> String {
     let text = start(256, 1, technique, &map_keys(technique, 64));
     let mut text = text.replace("eye = [6, 9, 14]", "eye = [0, 9, 0.1]").replace("far = 60.0", "far = 12.0");
+    text = text.replace("scale = 8.0", "scale = 8.0\ncasts_shadow = false");
     text += "[[object]]\nmesh = \"box\"\ninstances = [\n";
     for (x, z, scale) in places(count) {
         let _ = writeln!(text, "{{ translate = [{x:?}, -6, {z:?}], scale = {scale:?} }},");
@@ -195,7 +196,7 @@ fn load(text: &str, size: usize) -> Scene {
         std::fs::write(folder.path().join("ball.obj"), ball(size, 1.0)).unwrap();
     }
     if text.contains(".png") {
-        (0..size).for_each(|k| image::RgbaImage::new(1, 1).save(folder.path().join(format!("{k}.png"))).unwrap());
+        (0..size).for_each(|k| image::RgbImage::new(1, 1).save(folder.path().join(format!("{k}.png"))).unwrap());
     }
     glumbra::load(&path, &[]).unwrap().scene
 }
