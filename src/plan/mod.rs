@@ -32,6 +32,8 @@ pub struct Request {
     pub views: Vec<ViewRequest>,
     /// The picture in 32-bit float, for exact files.
     pub float_picture: bool,
+    /// Leaves out what no view needs: the picture is then not drawn.
+    pub views_only: bool,
     /// Frames to be drawn. Decides whether one-time work (sorting indices, keeping maps) is worth it.
     pub frames: u32,
     /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
@@ -52,6 +54,7 @@ impl Default for Request {
             subject: Subject::Camera,
             views: Vec::new(),
             float_picture: false,
+            views_only: false,
             frames: 1,
             keep_all: false,
             sampled_warnings: true,

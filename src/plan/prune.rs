@@ -17,7 +17,7 @@ pub fn prune(plan: &mut Plan, request: &Request) {
         return keep_all(plan);
     }
     cull_draws(plan);
-    drop_unread_passes(plan);
+    drop_unread_passes(plan, request.views_only);
     drop_unused_images(plan);
     plan.left_out.retain(|left| !focus::repeats(&left.what));
     choose_index_order(plan, request.frames);
@@ -84,9 +84,9 @@ fn cull_draws(plan: &mut Plan) {
 }
 
 /// Removes passes whose images are neither read later nor requested, last first.
-fn drop_unread_passes(plan: &mut Plan) {
+fn drop_unread_passes(plan: &mut Plan, views_only: bool) {
     let mut needed: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
-    needed.insert(plan.picture);
+    needed.extend((!views_only).then_some(plan.picture));
     let mut kept: Vec<Pass> = Vec::new();
     for pass in std::mem::take(&mut plan.list.passes).into_iter().rev() {
         if pass.writes().iter().any(|image| needed.contains(image)) {
