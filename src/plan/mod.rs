@@ -1,6 +1,7 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
 mod after_pass;
+mod closed;
 mod compose;
 mod lens;
 #[doc(hidden)]
@@ -33,6 +34,7 @@ pub struct Request {
     /// The picture in 32-bit float, for exact files.
     pub float_picture: bool,
     /// Leaves out what no view needs: the picture is then not drawn.
+    #[doc(hidden)]
     pub views_only: bool,
     /// Frames to be drawn. Decides whether one-time work (sorting indices, keeping maps) is worth it.
     pub frames: u32,
