@@ -1,4 +1,4 @@
-//! What lies beyond a depth and is not hidden by surfaces before it, by samples: the middles of an object's largest triangles.
+//! Surfaces beyond a depth that none before it hides, by samples: the middles of an object's largest triangles.
 //! The work is that of looking at all objects a few times, however many of them are tested.
 
 use glam::{DVec2, DVec3};
