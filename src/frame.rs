@@ -295,7 +295,8 @@ impl ShadeImage {
 /// An error of the plan or the device.
 pub fn draw_shade(scene: &Scene, light: usize, renderer: &mut Renderer) -> Result<ShadeImage, Error> {
     let views = vec![ViewRequest { view: View::Shade, light }];
-    let plan = renderer.plan(scene, &Request { views, sampled_warnings: false, ..Request::default() })?;
+    let request = Request { views, views_only: true, sampled_warnings: false, ..Request::default() };
+    let plan = renderer.plan(scene, &request)?;
     renderer.draw(&plan)?;
     let texels = match renderer.read(&plan)?.views.pop() {
         Some(Pixels::RgbaF32 { data, .. }) => data,

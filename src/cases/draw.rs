@@ -199,7 +199,7 @@ fn of_device(error: device::Error) -> Failure {
 /// Fills the plan's images with nonsense. Without this a texture that nothing writes may lie where the last one's
 /// right texels still are, and a skipped copy compares equal.
 fn scrub(renderer: &mut Renderer, plan: &Plan) -> Result<(), device::Error> {
-    let mut list = PassList { images: plan.list.images.clone(), passes: Vec::new() };
+    let mut list = PassList { images: plan.list.images.clone(), ..PassList::default() };
     for (index, desc) in plan.list.images.iter().enumerate() {
         let (color, depth) = match (&desc.storage, desc.format) {
             (

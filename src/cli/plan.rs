@@ -57,7 +57,7 @@ pub fn run(arguments: &PlanArgs, screen: Screen) -> Result<(), Error> {
         ..Request::default()
     };
     // A scene that cannot be drawn is not printed either.
-    let plan = plan::make(&loaded.scene, &request)?;
+    let mut plan = plan::make(&loaded.scene, &request)?;
     if let Some(pass) = &arguments.shaders {
         return super::print(&plan.shaders(pass)?);
     }
@@ -67,6 +67,7 @@ pub fn run(arguments: &PlanArgs, screen: Screen) -> Result<(), Error> {
     if arguments.gl {
         return super::print(&crate::fixed_function::listing::c_source(&plan.list));
     }
+    plan.note_closed(&loaded.scene);
     let summary = plan.summary();
     if arguments.print_scene && is_standard_stream(&arguments.scene.scene) {
         return Err(Error::PrintStandardInput);

@@ -1,16 +1,17 @@
 //! Runs a pass list: first everything it needs is made and checked, then each pass is drawn in order.
 
-use std::collections::HashSet;
+use std::collections::{HashMap, HashSet, VecDeque};
 use std::rc::Rc;
 use std::time::Instant;
 
 use glow::HasContext;
 
-use super::image::{self, ImageName};
+use super::image::{self, GpuImage, ImageName};
 use super::state::{apply, set_mirrored};
 use super::{Device, Error, framebuffer, is_same_elsewhere, mesh, mesh_key, program, unchanged};
 use crate::pass::{
-    Batch, Draw, DrawPass, DrawState, Format, ImageId, Pass, PassList, Primitive, Redraw, Target, UniformValue, Work,
+    Batch, Draw, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Primitive, Redraw, Target,
+    UniformValue, Work,
 };
 
 /// Way in which passes are timed.
@@ -180,11 +181,15 @@ impl Device {
     }
 
     pub(super) fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
-        let mut old: Vec<_> = std::mem::take(&mut self.images).into_iter().map(Some).collect();
+        let mut old: HashMap<(String, [u32; 2]), VecDeque<(ImageDesc, Rc<GpuImage>)>> = HashMap::new();
+        for (desc, image) in std::mem::take(&mut self.images) {
+            old.entry((desc.label.clone(), desc.size)).or_default().push_back((desc, image));
+        }
         let mut kept = HashSet::new();
         for desc in &list.images {
-            let found = old.iter_mut().find(|slot| slot.as_ref().is_some_and(|(have, _)| have == desc));
-            let image = match found.and_then(Option::take) {
+            let alike = old.get_mut(&(desc.label.clone(), desc.size));
+            let found = alike.and_then(|alike| alike.remove(alike.iter().position(|(have, _)| have == desc)?));
+            let image = match found {
                 Some((_, image)) => {
                     kept.insert(image.name.number());
                     image
@@ -193,7 +198,7 @@ impl Device {
             };
             self.images.push((desc.clone(), image));
         }
-        if old.iter().any(Option::is_some) || kept.len() != self.images.len() {
+        if old.values().any(|alike| !alike.is_empty()) || kept.len() != self.images.len() {
             // GL may give the numbers of deleted images to new ones: forget what was known of them.
             self.done.retain(|_, done| done.objects.iter().all(|number| kept.contains(number)));
             self.framebuffers.clear();

@@ -2,6 +2,7 @@
 //! shadow volumes. No GL, no scene.
 
 pub mod bump;
+mod closed;
 mod derived;
 mod error;
 #[cfg(feature = "gltf")]

@@ -4,10 +4,17 @@ use glam::{BVec3, DVec3};
 use parry3d_f64::bounding_volume::Aabb;
 use parry3d_f64::math::Vector;
 use parry3d_f64::partitioning::{Bvh, BvhBuildStrategy, BvhNode, TraversalAction};
+use rayon::prelude::*;
 
-/// Triangles in one space, in a hierarchy of boxes.
+/// Triangles in one space, in a hierarchy of boxes. Of many triangles each box holds several that lie close together: a
+/// hierarchy of all takes longer to build than it saves.
 pub struct Triangles {
     corners: Vec<[DVec3; 3]>,
+    /// The triangles, group after group.
+    order: Vec<u32>,
+    /// Number of triangles of a group; the last may have fewer.
+    group: usize,
+    /// One box a group.
     boxes: Boxes,
 }
 
@@ -27,6 +34,12 @@ struct Part {
 
 /// Number of boxes above which a hierarchy is built in parts, on all cores.
 const MOST_IN_PART: usize = 1 << 14;
+
+/// A mesh of twice as many triangles has groups of two, and so on.
+const TRIANGLES_PER_GROUPED: usize = 1 << 15;
+
+/// Greatest number of triangles of a group.
+const MOST_IN_GROUP: usize = 16;
 
 /// Times that boxes are halved for that, at most: each ray looks into each part.
 const MOST_HALVED: u32 = 3;
@@ -100,8 +113,13 @@ pub struct Ray {
 
 impl Triangles {
     pub fn new(corners: Vec<[DVec3; 3]>) -> Self {
-        let bounds = corners.iter().map(|[a, b, c]| [a.min(*b).min(*c), a.max(*b).max(*c)]);
-        Self { boxes: Boxes::new(bounds), corners }
+        let group = (corners.len() / TRIANGLES_PER_GROUPED).clamp(1, MOST_IN_GROUP);
+        let order = if group == 1 { (0..corners.len() as u32).collect() } else { along_a_curve(&corners) };
+        let bounds = order.chunks(group).map(|group| {
+            let all = group.iter().flat_map(|triangle| corners[*triangle as usize]);
+            all.fold([DVec3::INFINITY, DVec3::NEG_INFINITY], |[min, max], corner| [min.min(corner), max.max(corner)])
+        });
+        Self { boxes: Boxes::new(bounds), order, group, corners }
     }
 
     /// The corners of a triangle, by its index in the input of [`Triangles::new`].
@@ -113,14 +131,44 @@ impl Triangles {
     /// triangles share is crossed in one of them.
     pub fn crossings(&self, ray: &Ray, mut found: impl FnMut(u32, f64)) {
         let axes = axes(ray.way);
-        self.boxes.met(ray, |triangle| {
-            if let Some(t) = crossing(ray, axes, &self.corners[triangle as usize])
-                && (ray.start..=ray.end).contains(&t)
-            {
-                found(triangle, t);
+        self.boxes.met(ray, |group| {
+            let start = group as usize * self.group;
+            for &triangle in &self.order[start..(start + self.group).min(self.order.len())] {
+                if let Some(t) = crossing(ray, axes, &self.corners[triangle as usize])
+                    && (ray.start..=ray.end).contains(&t)
+                {
+                    found(triangle, t);
+                }
             }
         });
     }
+}
+
+/// The triangles along a curve through their box that mostly stays near where it was: a Z-order curve.
+fn along_a_curve(corners: &[[DVec3; 3]]) -> Vec<u32> {
+    let middle = |[a, b, c]: &[DVec3; 3]| *a + *b + *c;
+    let wider = |[min, max]: [DVec3; 2], at: DVec3| [min.min(at), max.max(at)];
+    let [min, max] = corners.iter().map(middle).fold([DVec3::INFINITY, DVec3::NEG_INFINITY], wider);
+    let cells = f64::from(1 << CURVE_BITS) / (max - min).max_element();
+    let key = |at: DVec3| {
+        // A cast takes what is no number to 0.
+        let [x, y, z] = ((at - min) * cells).to_array().map(|at| spread_bits((at as u32).min((1 << CURVE_BITS) - 1)));
+        x | y << 1 | z << 2
+    };
+    let mut keyed: Vec<(u32, u32)> = corners.iter().map(|corners| key(middle(corners))).zip(0..).collect();
+    keyed.par_sort_unstable();
+    keyed.into_iter().map(|(_, triangle)| triangle).collect()
+}
+
+/// Bits of each coordinate of a place on the curve: three of them are a key.
+const CURVE_BITS: u32 = 10;
+
+/// The ten bits of a number, two zeros between each and the next.
+fn spread_bits(number: u32) -> u32 {
+    let spread = (number | number << 16) & 0x0300_00ff;
+    let spread = (spread | spread << 8) & 0x0300_f00f;
+    let spread = (spread | spread << 4) & 0x030c_30c3;
+    (spread | spread << 2) & 0x0924_9249
 }
 
 /// The slab test, against boxes grown by its own rounding.
@@ -222,6 +270,34 @@ mod tests {
             assert_eq!(met, (0..boxes.len()).filter(alone).collect::<Vec<_>>());
             assert!(looked_at < 100 + 60 * met.len(), "{looked_at} for {}", met.len());
         }
+    }
+
+    /// Groups change which triangles a ray looks at, never which it crosses.
+    #[test]
+    fn triangles_in_groups_are_crossed_as_each_alone() {
+        let mut random = fastrand::Rng::with_seed(3);
+        let mut place = || DVec3::from_array([(); 3].map(|()| random.f64()));
+        let small = |at: DVec3, a: DVec3, b: DVec3| [at, at + 0.02 * (a - 0.5), at + 0.02 * (b - 0.5)];
+        let corners: Vec<[DVec3; 3]> =
+            (0..3 * TRIANGLES_PER_GROUPED).map(|_| small(place(), place(), place())).collect();
+        let all = Triangles::new(corners.clone());
+        assert_eq!(all.group, 3);
+        let mut crossed = 0;
+        for _ in 0..40 {
+            let (origin, way) = (2.0 * place() - 0.5, place() - 0.5);
+            let ray = Ray { origin, way, start: -9.0, end: 9.0 };
+            let mut met = Vec::new();
+            all.crossings(&ray, |triangle, t| met.push((triangle, t)));
+            met.sort_by_key(|(triangle, _)| *triangle);
+            let axes = axes(way);
+            let alone = |(triangle, corners)| Some((triangle, crossing(&ray, axes, corners)?));
+            let expected: Vec<(u32, f64)> = (0..).zip(&corners).filter_map(alone).collect();
+            assert_eq!(met, expected);
+            crossed += met.len();
+            let looked_at = all.boxes.met(&ray, |_| {});
+            assert!(20 * looked_at < corners.len() / all.group, "{looked_at}");
+        }
+        assert!(crossed > 100, "{crossed}");
     }
 
     #[test]

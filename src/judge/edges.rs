@@ -93,23 +93,35 @@ fn squares_to(size: [u32; 2], to: &[Pair]) -> Vec<f32> {
     squares
 }
 
-/// Distances from each of `from` to the nearest of `to`; `None` where either is empty.
-pub(super) fn distances(size: [u32; 2], from: &[Pair], to: &[Pair]) -> Option<EdgeDistance> {
-    if from.is_empty() || to.is_empty() {
-        return None;
+/// Distances to the nearest of a set of edges, at every half pixel; `None` where the set is empty.
+pub(super) struct DistanceField {
+    columns: usize,
+    /// In half pixels, squared.
+    squares: Vec<f32>,
+}
+
+impl DistanceField {
+    /// The field of edges in a picture of `size` pixels.
+    pub fn new(size: [u32; 2], to: &[Pair]) -> Option<Self> {
+        (!to.is_empty()).then(|| Self { columns: 2 * size[0] as usize + 1, squares: squares_to(size, to) })
     }
-    let columns = 2 * size[0] as usize + 1;
-    let squares = squares_to(size, to);
-    let halves = from.iter().map(|pair| squares[pair.middle[1] * columns + pair.middle[0]]);
-    let mut pixels: Vec<f64> = halves.map(|square| 0.5 * f64::from(square).sqrt()).collect();
-    pixels.sort_by(f64::total_cmp);
-    let rank = (0.95 * pixels.len() as f64).ceil() as usize;
-    Some(EdgeDistance {
-        edges: pixels.len(),
-        mean_pixels: pixels.iter().sum::<f64>() / pixels.len() as f64,
-        p95_pixels: pixels[rank.clamp(1, pixels.len()) - 1],
-        max_pixels: pixels[pixels.len() - 1],
-    })
+
+    /// Distances from each of `from`; `None` where that is empty.
+    pub fn of(&self, from: &[Pair]) -> Option<EdgeDistance> {
+        if from.is_empty() {
+            return None;
+        }
+        let halves = from.iter().map(|pair| self.squares[pair.middle[1] * self.columns + pair.middle[0]]);
+        let mut pixels: Vec<f64> = halves.map(|square| 0.5 * f64::from(square).sqrt()).collect();
+        pixels.sort_by(f64::total_cmp);
+        let rank = (0.95 * pixels.len() as f64).ceil() as usize;
+        Some(EdgeDistance {
+            edges: pixels.len(),
+            mean_pixels: pixels.iter().sum::<f64>() / pixels.len() as f64,
+            p95_pixels: pixels[rank.clamp(1, pixels.len()) - 1],
+            max_pixels: pixels[pixels.len() - 1],
+        })
+    }
 }
 
 /// Turns 0 at marks and infinity elsewhere into squared distances to the nearest mark, exactly: a lower envelope of

@@ -3,9 +3,11 @@
 //! Pixels are compared if both draw them and the ray tracer is certain; the others are counted by reason. A shade below 0.5
 //! is shadow. All percentages are of the pixels compared, so that false shadow and leak add up to the total.
 
+use std::sync::{Arc, Mutex, OnceLock, PoisonError};
+
 pub use super::band::Band;
 use super::band::find_band;
-use super::edges::{Pair, connected_pairs, distances};
+use super::edges::{DistanceField, Pair, connected_pairs};
 use crate::frame::ShadeImage;
 use crate::truth::{Answer, Pixel, Truth};
 
@@ -108,33 +110,96 @@ impl Metrics {
     }
 }
 
-/// Compares a picture with the truth.
+/// Compares a picture with the truth. A [`Ruler`] compares several with one truth, and finds that truth's edges once.
+///
+/// # Errors
+///
+/// A picture that does not fit the truth; a band that makes no sense.
 pub fn compare(truth: &Truth, shade: &ShadeImage, band: &Band) -> Result<Metrics, Error> {
-    check(truth, shade, band)?;
-    let pairs = connected_pairs(truth);
-    let true_edges: Vec<Pair> = pairs.iter().filter(|pair| pair.changes_light(truth)).copied().collect();
-    let drawn_pairs = pairs.iter().filter(|pair| shade.covered[pair.first] && shade.covered[pair.second]);
-    let changes = |pair: &&Pair| is_lit(shade.shade[pair.first]) != is_lit(shade.shade[pair.second]);
-    let rendered_edges: Vec<Pair> = drawn_pairs.filter(changes).copied().collect();
-    let in_band = find_band(truth, &true_edges, band);
+    Ruler::new(truth).compare(shade, band)
+}
 
-    let size = [truth.width, truth.height];
-    let measure = |takes: &dyn Fn(&Pixel) -> bool| {
-        let both = |pair: &&Pair| takes(&truth.pixels[pair.first]) && takes(&truth.pixels[pair.second]);
-        let some = |edges: &[Pair]| edges.iter().filter(both).copied().collect::<Vec<_>>();
-        let (rendered, real) = (some(&rendered_edges), some(&true_edges));
-        Errors {
-            rendered_to_true: distances(size, &rendered, &true_edges),
-            true_to_rendered: distances(size, &real, &rendered_edges),
-            ..count(truth, shade, &in_band, takes)
+/// A truth with its shadow edges, which pictures are compared with.
+pub struct Ruler<'t> {
+    truth: &'t Truth,
+    pairs: Vec<Pair>,
+    true_edges: Vec<Pair>,
+    /// Distances to the true edges, once they are asked for.
+    to_true: OnceLock<Option<DistanceField>>,
+    /// Pixels of each band that was asked for.
+    bands: Mutex<Vec<(Band, Arc<[bool]>)>>,
+}
+
+impl<'t> Ruler<'t> {
+    /// Finds the edges of `truth`.
+    pub fn new(truth: &'t Truth) -> Self {
+        let pairs = connected_pairs(truth);
+        let true_edges = pairs.iter().filter(|pair| pair.changes_light(truth)).copied().collect();
+        Self { truth, pairs, true_edges, to_true: OnceLock::new(), bands: Mutex::default() }
+    }
+
+    /// The truth.
+    pub fn truth(&self) -> &'t Truth {
+        self.truth
+    }
+
+    /// All errors of a picture.
+    ///
+    /// # Errors
+    ///
+    /// As [`compare`].
+    pub fn compare(&self, shade: &ShadeImage, band: &Band) -> Result<Metrics, Error> {
+        let metrics = self.count(shade, band)?;
+        let truth = self.truth;
+        let drawn = self.pairs.iter().filter(|pair| shade.covered[pair.first] && shade.covered[pair.second]);
+        let changes = |pair: &&Pair| is_lit(shade.shade[pair.first]) != is_lit(shade.shade[pair.second]);
+        let rendered_edges: Vec<Pair> = drawn.filter(changes).copied().collect();
+        let size = [truth.width, truth.height];
+        let to_true = self.to_true.get_or_init(|| DistanceField::new(size, &self.true_edges)).as_ref();
+        let to_rendered = DistanceField::new(size, &rendered_edges);
+        let measured = |errors: Errors, takes: &dyn Fn(&Pixel) -> bool| {
+            let both = |pair: &&Pair| takes(&truth.pixels[pair.first]) && takes(&truth.pixels[pair.second]);
+            let some = |edges: &[Pair]| edges.iter().filter(both).copied().collect::<Vec<_>>();
+            Errors {
+                rendered_to_true: to_true.and_then(|field| field.of(&some(&rendered_edges))),
+                true_to_rendered: to_rendered.as_ref().and_then(|field| field.of(&some(&self.true_edges))),
+                ..errors
+            }
+        };
+        let (all, facing) = (measured(metrics.all, &|_| true), measured(metrics.facing, &faces_light));
+        Ok(Metrics { all, facing, ..metrics })
+    }
+
+    /// The errors of a picture without distances between edges, which cost more than all else.
+    ///
+    /// # Errors
+    ///
+    /// As [`compare`].
+    pub fn count(&self, shade: &ShadeImage, band: &Band) -> Result<Metrics, Error> {
+        let truth = self.truth;
+        check(truth, shade, band)?;
+        let in_band = self.in_band(band);
+        Ok(Metrics {
+            band: *band,
+            all: count(truth, shade, &in_band, &|_| true),
+            facing: count(truth, shade, &in_band, &faces_light),
+            left_out: leave_out(truth, shade),
+        })
+    }
+
+    fn in_band(&self, band: &Band) -> Arc<[bool]> {
+        let mut bands = self.bands.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((_, pixels)) = bands.iter().find(|(known, _)| known == band) {
+            return pixels.clone();
         }
-    };
-    Ok(Metrics {
-        band: *band,
-        all: measure(&|_| true),
-        facing: measure(&|pixel| pixel.hit.is_some_and(|hit| hit.faces_light())),
-        left_out: leave_out(truth, shade),
-    })
+        let pixels: Arc<[bool]> = find_band(self.truth, &self.true_edges, band).into();
+        bands.push((*band, pixels.clone()));
+        pixels
+    }
+}
+
+fn faces_light(pixel: &Pixel) -> bool {
+    pixel.hit.is_some_and(|hit| hit.faces_light())
 }
 
 /// Threshold between light and shadow.

@@ -11,8 +11,8 @@ use super::joined_batches::JoinedBatches;
 use crate::geometry::{Derived, Gloss, Material, Placement, Texture, Wave};
 use crate::math::Aabb;
 use crate::pass::{
-    AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, ImageId,
-    IndexOrder, Input, MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
+    AlphaTest, Attribute, Batch, Chunk, Define, Draw, Filter, FixedFunctionDesc, Format, ImageDesc, IndexOrder, Input,
+    MeshRef, PassList, Primitive, Program, Sampler, Storage, Texturing, Uniform, Wrap, glsl,
 };
 use crate::scene::{ModelSkin, Object, Photo, Scene, photos_of};
 
@@ -47,15 +47,15 @@ pub fn items(scene: &Scene, moved: Option<&Derived>) -> Vec<Drawable> {
 /// would discard completely are left out. With `moved`, which keeps moved meshes, vertices that a wave moves are moved already.
 pub fn items_of(objects: &[Object], moved: Option<&Derived>) -> Vec<Drawable> {
     let mut materials = Materials::default();
-    let photos = photos_of(objects);
+    let photos = photos_of(objects).into_iter().map(Arc::as_ptr).zip(0..);
+    let photos: HashMap<*const Photo, usize> = photos.collect();
     let mut items: Vec<Drawable> = Vec::new();
     for (index, object) in objects.iter().enumerate() {
         let (mesh, wave) = match (object.wave, moved) {
             (Some(wave), Some(derived)) => (wave.moved_once(&object.mesh, derived), None),
             (wave, _) => (object.mesh.clone(), wave),
         };
-        let is_own = |photo: &&Arc<Photo>| object.photo.as_ref().is_some_and(|own| Arc::ptr_eq(own, photo));
-        let photo = photos.iter().position(is_own);
+        let photo = object.photo.as_ref().and_then(|own| photos.get(&Arc::as_ptr(own)).copied());
         let mut last_material: Option<Option<usize>> = None;
         for part in mesh.parts.iter().filter(|part| !part.indices.is_empty()) {
             let bounds = wave.map_or(part.bounds, |wave| wave.bounds(part.bounds));
@@ -331,14 +331,8 @@ fn depth_batch(waves: bool, tested: Option<&Appearance<'_>>, list: &mut PassList
 /// Shadow Maps"].
 pub fn side_map(name: impl Into<std::borrow::Cow<'static, str>>, list: &mut PassList) -> Input {
     const TEXELS: &[[u8; 4]] = &[[0; 4], [255; 4]];
-    let storage = Storage::Line(TEXELS);
-    let image = match list.images.iter().position(|desc| desc.storage == storage) {
-        Some(index) => ImageId(index),
-        None => {
-            let (label, size) = (String::from("sides of a light"), [TEXELS.len() as u32, 1]);
-            list.image(ImageDesc { label, size, format: Format::Rgba8, storage })
-        }
-    };
+    let (label, size) = (String::from("sides of a light"), [TEXELS.len() as u32, 1]);
+    let image = list.filled_image(ImageDesc { label, size, format: Format::Rgba8, storage: Storage::Line(TEXELS) });
     let sampler = Sampler { filter: Filter::Nearest, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
     Input { name: name.into(), image, sampler }
 }
@@ -350,11 +344,8 @@ pub fn upload_values(
     values: &Arc<[f32]>,
     list: &mut PassList,
 ) -> Input {
-    let storage = Storage::Values(values.clone());
-    let image = match list.images.iter().position(|desc| desc.storage == storage) {
-        Some(index) => ImageId(index),
-        None => list.image(ImageDesc { label, size: [values.len() as u32, 1], format: Format::R32F, storage }),
-    };
+    let (storage, size) = (Storage::Values(values.clone()), [values.len() as u32, 1]);
+    let image = list.filled_image(ImageDesc { label, size, format: Format::R32F, storage });
     let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
     Input { name: name.into(), image, sampler }
 }
@@ -366,15 +357,11 @@ pub fn upload(
     sampler: Sampler,
     list: &mut PassList,
 ) -> Input {
-    let storage = Storage::Uploaded(texture.clone());
-    let image = match list.images.iter().position(|desc| desc.storage == storage) {
-        Some(index) => ImageId(index),
-        None => list.image(ImageDesc {
-            label: texture.name.clone(),
-            size: [texture.width, texture.height],
-            format: Format::Rgba8,
-            storage,
-        }),
-    };
+    let image = list.filled_image(ImageDesc {
+        label: texture.name.clone(),
+        size: [texture.width, texture.height],
+        format: Format::Rgba8,
+        storage: Storage::Uploaded(texture.clone()),
+    });
     Input { name: name.into(), image, sampler }
 }

@@ -1,19 +1,22 @@
 //! Images that passes draw into and read from, and how they are sampled.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::fmt;
+use std::mem::{Discriminant, discriminant};
 use std::sync::Arc;
 
 use super::Compare;
 use crate::geometry::Texture;
 use crate::geometry::bump::TexelLevels;
+use crate::process::work;
 
 /// Index into [`super::PassList::images`].
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Hash, PartialOrd, Ord)]
 pub struct ImageId(pub usize);
 
 /// Description of an image: what the device makes for it.
-#[derive(Clone, Debug, PartialEq)]
+#[derive(Clone, Debug)]
 pub struct ImageDesc {
     /// Label, as `glumbra plan` prints it.
     pub label: String,
@@ -23,6 +26,15 @@ pub struct ImageDesc {
     pub format: Format,
     /// Kind of GL object, and where its texels come from.
     pub storage: Storage,
+}
+
+impl PartialEq for ImageDesc {
+    fn eq(&self, other: &Self) -> bool {
+        work::count_comparison();
+        (self.size, self.format) == (other.size, other.format)
+            && self.label == other.label
+            && self.storage == other.storage
+    }
 }
 
 /// Storage of an image's texels, and their origin.
@@ -62,6 +74,7 @@ impl Storage {
 
 impl PartialEq for Storage {
     fn eq(&self, other: &Self) -> bool {
+        work::count_comparison();
         match (self, other) {
             (Self::Texture, Self::Texture) | (Self::Renderbuffer, Self::Renderbuffer) => true,
             (Self::Mipmapped(a), Self::Mipmapped(b)) => a == b,
@@ -73,6 +86,32 @@ impl PartialEq for Storage {
             (Self::Values(a), Self::Values(b)) => Arc::ptr_eq(a, b),
             _ => false,
         }
+    }
+}
+
+/// Images whose texels come from the CPU, by the place of these in memory: a list of any length finds one at once.
+#[derive(Clone, Debug, Default)]
+pub struct FilledImages(HashMap<(Discriminant<Storage>, usize, [u32; 2]), ImageId>);
+
+impl FilledImages {
+    /// Entry of an image of a size; `None` where passes draw it.
+    pub(super) fn of(&mut self, storage: &Storage, size: [u32; 2]) -> Option<&mut ImageId> {
+        let texels = match storage {
+            Storage::Texture | Storage::Mipmapped(_) | Storage::Cube(_) | Storage::Renderbuffer => return None,
+            Storage::Uploaded(texture) => Arc::as_ptr(texture) as usize,
+            Storage::Levels(levels) => Arc::as_ptr(levels) as usize,
+            Storage::UnitVectors => 0,
+            Storage::Line(texels) => texels.as_ptr() as usize,
+            Storage::Values(values) => values.as_ptr() as usize,
+        };
+        Some(self.0.entry((discriminant(storage), texels, size)).or_insert(ImageId(usize::MAX)))
+    }
+}
+
+/// It follows from the images.
+impl PartialEq for FilledImages {
+    fn eq(&self, _: &Self) -> bool {
+        true
     }
 }
 

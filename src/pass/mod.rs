@@ -16,7 +16,8 @@ pub use fixed_function_desc::{
     Texturing,
 };
 pub use image::{
-    Border, Cube, CubeFace, DepthFormat, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage, Wrap,
+    Border, Cube, CubeFace, DepthFormat, FilledImages, Filter, Format, ImageDesc, ImageId, Input, Sampler, Storage,
+    Wrap,
 };
 pub use program::{Attribute, Chunk, Program, Uniform, UniformValue};
 pub use source::{Source, SourceLine, Stage};
@@ -31,6 +32,9 @@ pub struct PassList {
     pub images: Vec<ImageDesc>,
     /// Passes in the order in which they are drawn.
     pub passes: Vec<Pass>,
+    /// Entries of [`PassList::filled_image`].
+    #[doc(hidden)]
+    pub filled: FilledImages,
 }
 
 impl PassList {
@@ -38,6 +42,18 @@ impl PassList {
     pub fn image(&mut self, desc: ImageDesc) -> ImageId {
         self.images.push(desc);
         ImageId(self.images.len() - 1)
+    }
+
+    /// The id of an image that is filled from the CPU: of the one with the same texels and size, if the list has it.
+    pub fn filled_image(&mut self, desc: ImageDesc) -> ImageId {
+        let next = ImageId(self.images.len());
+        let Some(known) = self.filled.of(&desc.storage, desc.size) else { return self.image(desc) };
+        // Images may have been renumbered.
+        if self.images.get(known.0).is_none_or(|image| image.storage != desc.storage || image.size != desc.size) {
+            *known = next;
+            self.images.push(desc);
+        }
+        *known
     }
 
     /// Description of an image of this list.

@@ -1,5 +1,7 @@
 //! The lens points of a light in focus, each described by the light's technique as a light of its own.
 
+use std::collections::HashMap;
+
 use crate::compositions::focus::{self, Focused, LensPoint};
 use crate::lights::{LightTerm, LightView, Notes};
 use crate::pass::{ImageDesc, ImageId, Pass, PassList, Redraw};
@@ -53,14 +55,19 @@ fn through(light: &Light, lens: &Focus, number: u32) -> Light {
 
 /// The images of one lens point in the frame's list: those of earlier ones, where the descriptions are equal.
 fn share(own: &[ImageDesc], shared: &mut Vec<ImageId>, list: &mut PassList) -> Vec<ImageId> {
-    let mut free = shared.clone();
-    let find = |desc: &ImageDesc| match free.iter().position(|image| list.desc(*image) == desc) {
-        Some(place) => free.remove(place),
-        None => {
-            let image = list.image(desc.clone());
-            shared.push(image);
-            image
+    let mut free: HashMap<(String, [u32; 2]), Vec<ImageId>> = HashMap::new();
+    for image in shared.iter() {
+        let desc = list.desc(*image);
+        free.entry((desc.label.clone(), desc.size)).or_default().push(*image);
+    }
+    let find = |desc: &ImageDesc| {
+        let alike = free.entry((desc.label.clone(), desc.size)).or_default();
+        if let Some(place) = alike.iter().position(|image| list.desc(*image) == desc) {
+            return alike.remove(place);
         }
+        let image = list.filled_image(desc.clone());
+        shared.push(image);
+        image
     };
     own.iter().map(find).collect()
 }

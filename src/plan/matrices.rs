@@ -1,6 +1,7 @@
 //! The matrices of shadow mapping with their numbers, for `glumbra plan --matrices` [HSM, "Computing
 //! Transformations for Shadow Mapping" and Appendix A].
 
+use std::collections::HashSet;
 use std::fmt::Write;
 
 use glam::{DMat4, DVec3, DVec4};
@@ -108,14 +109,14 @@ impl Plan {
 
     /// Planes beside the lights' own: a surface's object planes, a guard's texgen plane, clip planes.
     fn other_planes(&self, out: &mut Text) {
-        let mut known = Vec::new();
+        let mut known = HashSet::new();
         for pass in &self.list.passes {
             let Work::Draw(draw) = &pass.work else { continue };
             for batch in &draw.batches {
                 for text in planes_of(batch) {
                     if !known.contains(&text) {
                         out.line(&text);
-                        known.push(text);
+                        known.insert(text);
                     }
                 }
             }

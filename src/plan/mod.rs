@@ -1,6 +1,7 @@
 //! Joins, orders and prunes the passes of a frame, and says what it left out and why. Names no technique.
 
 mod after_pass;
+mod closed;
 mod compose;
 mod lens;
 #[doc(hidden)]
@@ -32,6 +33,9 @@ pub struct Request {
     pub views: Vec<ViewRequest>,
     /// The picture in 32-bit float, for exact files.
     pub float_picture: bool,
+    /// Leaves out what no view needs: the picture is then not drawn.
+    #[doc(hidden)]
+    pub views_only: bool,
     /// Frames to be drawn. Decides whether one-time work (sorting indices, keeping maps) is worth it.
     pub frames: u32,
     /// Draws what is left out otherwise, to prove that it changes no pixel and to see what it would cost: lights and
@@ -52,6 +56,7 @@ impl Default for Request {
             subject: Subject::Camera,
             views: Vec::new(),
             float_picture: false,
+            views_only: false,
             frames: 1,
             keep_all: false,
             sampled_warnings: true,

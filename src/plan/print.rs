@@ -101,12 +101,13 @@ impl Plan {
             draw_calls: 0,
             triangles: 0,
         };
+        let [mut shaders, mut inputs] = [HashSet::new(), HashSet::new()];
         for batch in &pass.batches {
             let defines = batch.program.defines.iter().filter(|define| !define.has_parameters());
             let defines: Vec<String> = defines.map(Define::full_name).collect();
-            push_new(&mut summary.shaders, format!("{}[{}]", batch.program.label, defines.join(" ")));
+            push_new(&mut summary.shaders, &mut shaders, format!("{}[{}]", batch.program.label, defines.join(" ")));
             for input in &batch.inputs {
-                push_new(&mut summary.inputs, self.input_words(input));
+                push_new(&mut summary.inputs, &mut inputs, self.input_words(input));
             }
             let part = batch.scissor.map_or(String::new(), |scissor| format!(", {}", scissor_words(scissor)));
             for draw in &batch.draws {
@@ -139,8 +140,9 @@ fn face_words(face: Option<CubeFace>) -> String {
     face.map_or(String::new(), |face| format!(", face {}", face.name()))
 }
 
-fn push_new(list: &mut Vec<String>, text: String) {
-    if !list.contains(&text) {
+/// Adds a text to a list, once.
+fn push_new(list: &mut Vec<String>, known: &mut HashSet<String>, text: String) {
+    if known.insert(text.clone()) {
         list.push(text);
     }
 }

@@ -7,7 +7,9 @@ use super::{Plan, Request};
 use crate::compositions::focus;
 use crate::lights::{Chosen, LeftOut};
 use crate::math::frustum::{self, Overlap};
-use crate::pass::{Channels, Format, ImageDesc, ImageId, IndexOrder, Pass, PassList, Primitive, Redraw, Storage, Work};
+use crate::pass::{
+    Channels, FilledImages, Format, ImageDesc, ImageId, IndexOrder, Pass, PassList, Primitive, Redraw, Storage, Work,
+};
 
 /// Prunes in place.
 pub fn prune(plan: &mut Plan, request: &Request) {
@@ -15,7 +17,7 @@ pub fn prune(plan: &mut Plan, request: &Request) {
         return keep_all(plan);
     }
     cull_draws(plan);
-    drop_unread_passes(plan);
+    drop_unread_passes(plan, request.views_only);
     drop_unused_images(plan);
     plan.left_out.retain(|left| !focus::repeats(&left.what));
     choose_index_order(plan, request.frames);
@@ -23,7 +25,7 @@ pub fn prune(plan: &mut Plan, request: &Request) {
 
 /// The opposite of pruning: every pass in every frame, and a colour buffer for each depth pass.
 fn keep_all(plan: &mut Plan) {
-    let PassList { images, passes } = &mut plan.list;
+    let PassList { images, passes, .. } = &mut plan.list;
     // One for all passes of a depth buffer: a light's lens points may be thousands.
     let mut colors: HashMap<(Option<ImageId>, [u32; 2]), ImageId> = HashMap::new();
     for pass in passes {
@@ -82,9 +84,9 @@ fn cull_draws(plan: &mut Plan) {
 }
 
 /// Removes passes whose images are neither read later nor requested, last first.
-fn drop_unread_passes(plan: &mut Plan) {
+fn drop_unread_passes(plan: &mut Plan, views_only: bool) {
     let mut needed: HashSet<ImageId> = plan.views.iter().map(|(_, image)| *image).collect();
-    needed.insert(plan.picture);
+    needed.extend((!views_only).then_some(plan.picture));
     let mut kept: Vec<Pass> = Vec::new();
     for pass in std::mem::take(&mut plan.list.passes).into_iter().rev() {
         if pass.writes().iter().any(|image| needed.contains(image)) {
@@ -115,6 +117,7 @@ pub(super) fn drop_unused_images(plan: &mut Plan) {
         }
     }
     plan.list.images = kept;
+    plan.list.filled = FilledImages::default();
     let new = |id: &mut ImageId| *id = renumbered.get(id).copied().unwrap_or(*id);
     new(&mut plan.picture);
     plan.views.iter_mut().for_each(|(_, image)| new(image));

@@ -13,16 +13,19 @@ pub struct WorkDone {
     pub boxes: u64,
     /// Triangles that a loop visited.
     pub triangles: u64,
+    /// Comparisons of two images' texels, or of a point with a surface that may hide it.
+    pub comparisons: u64,
 }
 
 thread_local! {
     static BOXES: Cell<u64> = const { Cell::new(0) };
     static TRIANGLES: Cell<u64> = const { Cell::new(0) };
+    static COMPARISONS: Cell<u64> = const { Cell::new(0) };
 }
 
 /// The steps of this thread so far.
 pub fn done() -> WorkDone {
-    WorkDone { boxes: BOXES.get(), triangles: TRIANGLES.get() }
+    WorkDone { boxes: BOXES.get(), triangles: TRIANGLES.get(), comparisons: COMPARISONS.get() }
 }
 
 /// Counts a box.
@@ -33,4 +36,9 @@ pub(crate) fn count_box() {
 /// Counts the triangles that `indices` are, three each.
 pub(crate) fn count_triangles(indices: usize) {
     TRIANGLES.set(TRIANGLES.get() + indices as u64 / 3);
+}
+
+/// Counts a comparison: of two images' texels, or of a point with a surface that may hide it.
+pub(crate) fn count_comparison() {
+    COMPARISONS.set(COMPARISONS.get() + 1);
 }

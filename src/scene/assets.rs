@@ -1,6 +1,6 @@
 //! The files that a scene names: each is loaded once however often it is used, and its loader's warnings are kept.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -101,6 +101,7 @@ pub(super) struct Assets {
     files: Files,
     /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
+    said: HashSet<String>,
 }
 
 impl Assets {
@@ -185,7 +186,7 @@ impl Assets {
 
     /// Keeps a warning, once.
     pub fn warn(&mut self, warning: String) {
-        if !self.warnings.contains(&warning) {
+        if self.said.insert(warning.clone()) {
             self.warnings.push(warning);
         }
     }
@@ -228,7 +229,7 @@ impl Assets {
             Some(bytes) => still(geometry::decode_obj(path, bytes)?),
             None => still(geometry::load_obj(path)?),
         };
-        self.warnings.extend(warnings.iter().map(ToString::to_string));
+        warnings.iter().for_each(|warning| self.warn(warning.to_string()));
         self.models.insert(key, model.clone());
         Ok(model)
     }
@@ -240,7 +241,7 @@ impl Assets {
 
     /// Adds a mesh in memory, which objects call `name`.
     pub fn give(&mut self, name: &str, mesh: Mesh, warnings: &[geometry::Warning]) {
-        self.warnings.extend(warnings.iter().map(ToString::to_string));
+        warnings.iter().for_each(|warning| self.warn(warning.to_string()));
         self.models.insert(PathBuf::from(name), Model::Still(Arc::new(mesh)));
     }
 

@@ -9,6 +9,7 @@ mod default_scene;
 mod error;
 mod files;
 mod furnish;
+mod hidden;
 mod include;
 mod json;
 mod model;

@@ -1,5 +1,6 @@
 //! Photographs of a scene: which there are, and their pictures [Segal 1992, 3.1].
 
+use std::collections::HashSet;
 use std::sync::Arc;
 
 use glam::DVec3;
@@ -33,11 +34,7 @@ impl Scene {
 
 /// The photographs of `objects`, each once, in their order.
 pub fn photos_of(objects: &[Object]) -> Vec<&Arc<Photo>> {
-    let mut found: Vec<&Arc<Photo>> = Vec::new();
-    for photo in objects.iter().filter_map(|object| object.photo.as_ref()) {
-        if !found.iter().any(|known| Arc::ptr_eq(known, photo)) {
-            found.push(photo);
-        }
-    }
-    found
+    let mut known = HashSet::new();
+    let photos = objects.iter().filter_map(|object| object.photo.as_ref());
+    photos.filter(|photo| known.insert(Arc::as_ptr(photo))).collect()
 }

@@ -12,15 +12,12 @@ use crate::process::work;
 /// Area in pixels below which a piece does not count.
 pub(super) const LEAST_PIECE: f64 = 0.5;
 
-/// Number of triangles of a cut-off part that are tested for lying behind other surfaces.
-const SAMPLES: usize = 16;
-
 /// A pyramid of view, without end: x right, y up, -z ahead.
 #[derive(Clone, Debug)]
 pub(super) struct Pyramid {
     view_from_world: DMat4,
     /// Half its width and half its height at depth 1.
-    tan: DVec2,
+    pub(super) tan: DVec2,
 }
 
 /// Depths, least and most, of what is in view; empty where `least` exceeds `most`.
@@ -102,33 +99,8 @@ impl Pyramid {
         area >= least
     }
 
-    /// Tests whether some of `object` beyond depth `far` is not hidden by surfaces before that depth.
-    pub fn shows_beyond(&self, object: &Object, far: f64, objects: &[Object], size: [u32; 2]) -> bool {
-        let mut pieces: Vec<(f64, DVec3)> = Vec::new();
-        self.visit(object, |polygon| {
-            let piece = Cut::Between(far, f64::INFINITY).piece(polygon);
-            let area = self.pixels(&piece, size);
-            if area >= LEAST_PIECE {
-                pieces.push((area, piece.iter().sum::<DVec3>() / piece.len() as f64));
-            }
-            true
-        });
-        pieces.sort_by(|a, b| b.0.total_cmp(&a.0));
-        pieces.truncate(SAMPLES);
-        for other in objects {
-            if pieces.is_empty() {
-                break;
-            }
-            self.visit(other, |polygon| {
-                pieces.retain(|(_, point)| !hides(polygon, *point, far));
-                !pieces.is_empty()
-            });
-        }
-        !pieces.is_empty()
-    }
-
     /// The area of a polygon in view, in pixels.
-    fn pixels(&self, polygon: &[DVec3], size: [u32; 2]) -> f64 {
+    pub(super) fn pixels(&self, polygon: &[DVec3], size: [u32; 2]) -> f64 {
         if polygon.len() < 3 {
             return 0.0;
         }
@@ -142,7 +114,7 @@ impl Pyramid {
     }
 
     /// Calls `look` with the part in view of each drawn triangle, in view space, until it says `false`.
-    fn visit(&self, object: &Object, mut look: impl FnMut(&[DVec3]) -> bool) {
+    pub(super) fn visit(&self, object: &Object, mut look: impl FnMut(&[DVec3]) -> bool) {
         self.visit_triangles(object, |_, polygon| look(polygon));
     }
 
@@ -206,7 +178,7 @@ pub(super) enum Cut {
 }
 
 impl Cut {
-    fn piece(self, polygon: &[DVec3]) -> Vec<DVec3> {
+    pub(super) fn piece(self, polygon: &[DVec3]) -> Vec<DVec3> {
         let before = |depth: f64, polygon: &[DVec3]| clip_polygon(polygon, &DVec4::new(0.0, 0.0, 1.0, depth));
         match self {
             Self::Before(depth) => before(depth, polygon),
@@ -216,17 +188,6 @@ impl Cut {
             }
         }
     }
-}
-
-/// Tests whether the ray from the view's origin to `point` meets the polygon before it, at a depth below `far`.
-fn hides(polygon: &[DVec3], point: DVec3, far: f64) -> bool {
-    let sides = (0..polygon.len()).map(|k| polygon[k].cross(polygon[(k + 1) % polygon.len()]).dot(point));
-    let (mut left, mut right) = (false, false);
-    sides.for_each(|side| (left, right) = (left || side > 0.0, right || side < 0.0));
-    let normal =
-        (1..polygon.len() - 1).map(|k| (polygon[k] - polygon[0]).cross(polygon[k + 1] - polygon[0])).sum::<DVec3>();
-    let at = normal.dot(polygon[0]) / normal.dot(point);
-    left != right && 0.0 < at && at * -point.z < far
 }
 
 /// Tests whether the alpha test leaves nothing of a part.

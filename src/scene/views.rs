@@ -1,6 +1,7 @@
 //! Matrices and bounds of a scene.
 
 use std::borrow::Cow;
+use std::collections::HashMap;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec2, DVec3};
@@ -53,10 +54,12 @@ impl Scene {
         }
         ends.into_iter().for_each(|end| *end -= origin);
         scene.objects.iter_mut().for_each(|object| object.world_from_model.w_axis -= origin.extend(0.0));
-        let moved: Vec<_> = self.photos().into_iter().map(|photo| (photo, Arc::new(photo.moved(-origin)))).collect();
+        let photos = self.photos().into_iter();
+        let moved: HashMap<_, _> = photos.map(|photo| (Arc::as_ptr(photo), Arc::new(photo.moved(-origin)))).collect();
         for photo in scene.objects.iter_mut().filter_map(|object| object.photo.as_mut()) {
-            let found = moved.iter().find(|(own, _)| Arc::ptr_eq(own, photo)).map(|(_, moved)| moved.clone());
-            found.into_iter().for_each(|moved| *photo = moved);
+            if let Some(moved) = moved.get(&Arc::as_ptr(photo)) {
+                *photo = moved.clone();
+            }
         }
         Some(scene)
     }

@@ -162,24 +162,15 @@ pub fn normal_map(bump: &Bump, list: &mut PassList) -> Input {
 }
 
 fn level_image(map: &Arc<TexelLevels>, format: Format, list: &mut PassList) -> ImageId {
-    let storage = Storage::Levels(map.clone());
-    match list.images.iter().position(|desc| desc.storage == storage) {
-        Some(index) => ImageId(index),
-        None => {
-            let label = format!("normals of {}", map.name);
-            list.image(ImageDesc { label, size: [map.width, map.height], format, storage })
-        }
-    }
+    let (label, storage) = (format!("normals of {}", map.name), Storage::Levels(map.clone()));
+    list.filled_image(ImageDesc { label, size: [map.width, map.height], format, storage })
 }
 
 /// Binds the cube map that normalises.
 fn unit_vectors(size: u32, list: &mut PassList) -> Input {
     let label = String::from("unit vectors");
     let desc = ImageDesc { label, size: [size; 2], format: Format::Rgba8, storage: Storage::UnitVectors };
-    let image = match list.images.iter().position(|known| *known == desc) {
-        Some(index) => ImageId(index),
-        None => list.image(desc),
-    };
+    let image = list.filled_image(desc);
     let sampler = Sampler { filter: Filter::Linear, wrap: Wrap::ClampToEdge, compare: None, lod_halves: None };
     Input { name: "unit_vectors".into(), image, sampler }
 }

@@ -252,19 +252,21 @@ impl<'a> Tracer<'a> {
         };
         let count = width as usize * height as usize;
         let mut tally = Doubts::default();
-        let mut found: Vec<Option<Pixel>> = vec![None; count];
+        // Pixels take so much memory that each copy of them costs as long as some of their rays.
+        let mut found = vec![Pixel { answer: Answer::Background, lit_at_center: None, hit: None }; count];
+        let mut pixels: Vec<Pixel> = Vec::new();
         for first in 0..portions::COUNT {
             let places = portions::pixels(first, [width, height]);
             let at = |index: &usize| answer(((index % width as usize) as u32, (index / width as usize) as u32));
-            let pixels: Vec<Pixel> = places.par_iter().map(at).collect();
+            places.par_iter().map(at).collect_into_vec(&mut pixels);
             pixels.iter().for_each(|pixel| tally.add(pixel, scene));
-            places.into_iter().zip(pixels).for_each(|(index, pixel)| found[index] = Some(pixel));
+            places.into_iter().zip(&pixels).for_each(|(index, pixel)| found[index] = *pixel);
             let left = count - tally.answered;
             if tally.share_of(left) > options.most_ambiguous {
                 return Err(tally.error(options, count));
             }
         }
-        Ok(Truth { width, height, pixels: found.into_iter().flatten().collect() })
+        Ok(Truth { width, height, pixels: found })
     }
 
     /// The error of a point at `reach` from its object's origin. The second term is the rounding of this computation itself, in

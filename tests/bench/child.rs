@@ -160,7 +160,7 @@ fn glumbra(scene: Scene, arguments: &Arguments) -> Result<Sample> {
 
 /// Puts what is to be kept back into the passes of light 0.
 fn keep(plan: &mut Plan, keep: Keep) {
-    let PassList { images, passes } = &mut plan.list;
+    let PassList { images, passes, .. } = &mut plan.list;
     for pass in passes.iter_mut().filter(|pass| pass.label.starts_with("light 0: ")) {
         let Work::Draw(pass) = &mut pass.work else { continue };
         match keep {

@@ -317,7 +317,7 @@ fn by_gl(device: &mut Device, program: &CombinerProgram, precision: Precision, s
         batches: vec![batch],
     };
     let pass = Pass { label: String::from("combine"), redraw: Redraw::Always, work: Work::Draw(pass) };
-    let list = PassList { images: vec![image], passes: vec![pass] };
+    let list = PassList { images: vec![image], passes: vec![pass], ..PassList::default() };
     device.run(&list, Measure::No).unwrap_or_else(|error| panic!("{error}:\n{program}"));
     let Pixels::RgbaF32 { data, .. } = device.read(&list, ImageId(0)).unwrap() else { panic!("no floats") };
     data.as_chunks::<4>().0.to_vec()

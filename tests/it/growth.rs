@@ -68,6 +68,8 @@ const LADDERS: &[Ladder] = &[
     Ladder { name: "objects", sizes: &[512, 1024, 2048], text: objects, drawn: false },
     Ladder { name: "objects drawn", sizes: &[16, 64, 240], text: objects, drawn: true },
     Ladder { name: "materials", sizes: &[16, 64, 240], text: materials, drawn: true },
+    Ladder { name: "textures", sizes: &[16, 64, 240], text: textures, drawn: true },
+    Ladder { name: "objects hidden beyond far", sizes: &[512, 1024, 2048], text: hidden, drawn: false },
     Ladder { name: "triangles", sizes: &[1 << 8, 1 << 10, 1 << 12, 1 << 14], text: triangles, drawn: true },
     Ladder { name: "lights", sizes: &[1, 4, 16, 64], text: lights, drawn: false },
     Ladder { name: "lights drawn", sizes: &[1, 2, 4, 8], text: lights, drawn: true },
@@ -134,6 +136,31 @@ fn materials(count: usize, technique: &str) -> String {
     text
 }
 
+/// Objects with a picture each, whose files are in the scene's folder: see [`load`].
+fn textures(count: usize, technique: &str) -> String {
+    let mut text = start(48, 1, technique, &map_keys(technique, 64));
+    for (k, (x, z, scale)) in places(count).enumerate() {
+        let _ = writeln!(
+            text,
+            "[[object]]\nmesh = \"box\"\ntranslate = [{x:?}, 2, {z:?}]\nscale = {scale:?}\n\
+             material = {{ decal = \"{k}.png\" }}"
+        );
+    }
+    text
+}
+
+/// Boxes beyond the far plane, all behind the floor as the camera sees it.
+fn hidden(count: usize, technique: &str) -> String {
+    let text = start(256, 1, technique, &map_keys(technique, 64));
+    let mut text = text.replace("eye = [6, 9, 14]", "eye = [0, 9, 0.1]").replace("far = 60.0", "far = 12.0");
+    text = text.replace("scale = 8.0", "scale = 8.0\ncasts_shadow = false");
+    text += "[[object]]\nmesh = \"box\"\ninstances = [\n";
+    for (x, z, scale) in places(count) {
+        let _ = writeln!(text, "{{ translate = [{x:?}, -6, {z:?}], scale = {scale:?} }},");
+    }
+    text + "]\n"
+}
+
 /// A closed ball of so many triangles, which volumes count by its outline; its file is in the scene's folder: see [`load`].
 fn triangles(_: usize, technique: &str) -> String {
     start(48, 1, technique, &map_keys(technique, 64)) + "[[object]]\nmesh = \"ball.obj\"\ntranslate = [0, 1, 0]\n"
@@ -168,6 +195,9 @@ fn load(text: &str, size: usize) -> Scene {
     if text.contains("ball.obj") {
         std::fs::write(folder.path().join("ball.obj"), ball(size, 1.0)).unwrap();
     }
+    if text.contains(".png") {
+        (0..size).for_each(|k| image::RgbImage::new(1, 1).save(folder.path().join(format!("{k}.png"))).unwrap());
+    }
     glumbra::load(&path, &[]).unwrap().scene
 }
 
@@ -178,19 +208,20 @@ fn draws(plan: &Plan) -> u64 {
 fn measure(ladder: &Ladder, size: usize, technique: &str, gl: &(Rc<dyn Context>, Rc<Calls>)) -> Counts {
     let text = (ladder.text)(size, technique);
     let mut counts = Counts::new();
-    let mut worked = |what: [&'static str; 2], before: work::WorkDone| {
+    let mut worked = |what: [&'static str; 3], before: work::WorkDone| {
         let done = work::done();
         counts.push((what[0], done.boxes - before.boxes));
         counts.push((what[1], done.triangles - before.triangles));
+        counts.push((what[2], done.comparisons - before.comparisons));
     };
     let before = work::done();
     let scene = load(&text, size);
-    worked(["boxes at loading", "triangles at loading"], before);
+    worked(["boxes at loading", "triangles at loading", "comparisons at loading"], before);
     let request = Request { frames: 2, ..Request::default() };
     let before = work::done();
     if !ladder.drawn {
         let plan = plan::make(&scene, &request).unwrap();
-        worked(["boxes in planning", "triangles in planning"], before);
+        worked(["boxes in planning", "triangles in planning", "comparisons in planning"], before);
         counts.push(("passes", plan.list.passes.len() as u64));
         counts.push(("draws planned", draws(&plan)));
         return counts;
@@ -198,13 +229,17 @@ fn measure(ladder: &Ladder, size: usize, technique: &str, gl: &(Rc<dyn Context>,
     let (context, calls) = gl;
     let mut renderer = Renderer::new(context);
     let plan = renderer.plan(&scene, &request).unwrap();
-    worked(["boxes in planning", "triangles in planning"], before);
-    for names in [["GL calls", "draws", "bytes uploaded"], ["GL calls again", "draws again", "bytes uploaded again"]] {
+    worked(["boxes in planning", "triangles in planning", "comparisons in planning"], before);
+    for names in [
+        ["GL calls", "draws", "bytes uploaded", "comparisons in drawing"],
+        ["GL calls again", "draws again", "bytes uploaded again", "comparisons in drawing again"],
+    ] {
         let at = |calls: &Calls| [calls.all.get(), calls.draws.get(), calls.bytes.get()];
-        let before = at(calls);
+        let (before, worked) = (at(calls), work::done());
         renderer.draw(&plan).unwrap();
         let after = at(calls);
         counts.extend((0..3).map(|k| (names[k], after[k] - before[k])));
+        counts.push((names[3], work::done().comparisons - worked.comparisons));
     }
     counts
 }
@@ -260,7 +295,7 @@ fn hold(is_wanted: impl Fn(&str) -> bool) {
 
 #[test]
 fn work_grows_with_objects_as_they_do() {
-    hold(|name| name.starts_with("objects") || name == "materials");
+    hold(|name| name.starts_with("objects") || name == "materials" || name == "textures");
 }
 
 #[test]

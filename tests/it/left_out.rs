@@ -264,3 +264,91 @@ fn texels_that_nothing_is_compared_with_change_no_pixel() {
     }
     assert!(scissored > 20, "only {scissored} maps were drawn in part: the test shows nothing");
 }
+
+/// A box, and beside it a smaller one inside out: the volume of both is positive, and the smaller one shows its back faces.
+#[test]
+fn a_piece_inside_out_cannot_be_declared_closed() {
+    const CORNERS: [[f64; 3]; 8] = [
+        [-1.0, -1.0, -1.0],
+        [1.0, -1.0, -1.0],
+        [1.0, 1.0, -1.0],
+        [-1.0, 1.0, -1.0],
+        [-1.0, -1.0, 1.0],
+        [1.0, -1.0, 1.0],
+        [1.0, 1.0, 1.0],
+        [-1.0, 1.0, 1.0],
+    ];
+    const FACES: [[usize; 4]; 6] = [[4, 3, 2, 1], [5, 6, 7, 8], [1, 2, 6, 5], [2, 3, 7, 6], [3, 4, 8, 7], [4, 1, 5, 8]];
+    let mut text = String::new();
+    for (aside, scale) in [(0.0, 1.0), (4.0, 0.5)] {
+        CORNERS.iter().for_each(|[x, y, z]| {
+            let _ = writeln!(text, "v {} {} {}", aside + scale * x, scale * y, scale * z);
+        });
+    }
+    let faces = |first: usize, is_turned: bool| {
+        let line = |face: &[usize; 4]| {
+            let mut face = *face;
+            if is_turned {
+                face.reverse();
+            }
+            format!("f {} {} {} {}\n", face[0] + first, face[1] + first, face[2] + first, face[3] + first)
+        };
+        FACES.iter().map(line).collect::<String>()
+    };
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("closed.toml");
+    std::fs::write(&path, "[[object]]\nmesh = \"boxes.obj\"\nclosed = true\n").unwrap();
+    for is_turned in [false, true] {
+        let faces = faces(0, false) + &faces(8, is_turned);
+        std::fs::write(folder.path().join("boxes.obj"), text.clone() + &faces).unwrap();
+        match glumbra::load(&path, &[]) {
+            Ok(_) => assert!(!is_turned),
+            Err(error) => assert!(is_turned && error.to_string().contains("some piece of the mesh look"), "{error}"),
+        }
+    }
+}
+
+#[test]
+fn a_plan_says_which_meshes_are_closed() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("closed.toml");
+    for (object, is_said) in [
+        ("mesh = \"torus\"", true),
+        ("mesh = \"torus\"\nclosed = true", false),
+        ("mesh = \"teapot\"", false),
+        ("mesh = \"box\"", false),
+    ] {
+        std::fs::write(&path, format!("[[object]]\n{object}\n")).unwrap();
+        let scene = glumbra::load(&path, &[]).unwrap().scene;
+        let mut plan = glumbra::plan::make(&scene, &Request::default()).unwrap();
+        plan.note_closed(&scene);
+        let said = plan.chosen.iter().any(|chosen| chosen.why.contains("closed = true leaves them out"));
+        assert_eq!(said, is_said, "{object}: {:?}", plan.chosen);
+    }
+}
+
+/// A view alone is drawn as it is beside the picture, without the picture's passes.
+#[test]
+fn shades_are_the_same_without_the_picture() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(&context);
+    for keys in [
+        "technique = \"none\"",
+        "technique = \"shadow-map\"\nsize = 128",
+        "technique = \"midpoint\"\nsize = 128",
+        "technique = \"second-depth\"\nclosed = \"assume\"\nsize = 128",
+        "technique = \"shadow-volume\"",
+        "technique = \"shadow-volume\"\nmethod = \"z-fail\"",
+    ] {
+        let scene = field([6.0, 5.0, 8.0], [6.0, 14.0, 4.0], 50.0, keys);
+        let mut drawn = |views_only| {
+            let views = vec![ViewRequest { view: View::Shade, light: 0 }];
+            let plan = renderer.plan(&scene, &Request { views, views_only, ..Request::default() }).unwrap();
+            renderer.draw(&plan).unwrap();
+            (renderer.read(&plan).unwrap().views, plan.list.passes.len())
+        };
+        let ((beside, all), (alone, fewer)) = (drawn(false), drawn(true));
+        assert!(alone == beside, "{keys}");
+        assert!(fewer < all, "{keys}: {fewer} of {all} passes");
+    }
+}

@@ -6,7 +6,7 @@ use glam::{DMat4, DVec3, DVec4};
 use super::grid::to_inline;
 use super::tune::{self, Search, TunedPoint};
 use crate::frame::{Renderer, draw_shade};
-use crate::judge::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics};
+use crate::judge::metrics::{self, Band, ErrorSplit, FEWEST_COMPARED, Metrics, Ruler};
 use crate::pass::DepthFormat;
 use crate::report::numbers::plain;
 use crate::report::store::claimed::{ClaimVerdict, Claimed, Measurement};
@@ -36,7 +36,8 @@ pub fn measure(
     let format = LightShadow::of(&as_tuned).and_then(LightShadow::map).map_or(DepthFormat::Depth24, |map| map.format);
     let options =
         tune::TuneOptions { light, sizes: vec![size], leak_percent: 0.0, false_per_100_000: 1.0, band_texels };
-    let mut contest = Contest { scene, truth, options, size, format, renderer, seen: Vec::new() };
+    let ruler = Ruler::new(truth);
+    let mut contest = Contest { scene, ruler: &ruler, options, size, format, renderer, seen: Vec::new() };
     let mut claimed = Vec::new();
     for technique in TABLE.iter().filter(|technique| technique.serves(&source.kind).is_ok()) {
         for claim in technique.claims() {
@@ -90,7 +91,7 @@ pub(super) fn judge(relation: Relation, first: &Measurement, second: &Measuremen
 /// The contenders of one scene, each drawn once.
 struct Contest<'a> {
     scene: &'a Scene,
-    truth: &'a Truth,
+    ruler: &'a Ruler<'a>,
     options: tune::TuneOptions,
     size: u32,
     format: DepthFormat,
@@ -158,7 +159,7 @@ impl Contest<'_> {
     /// A shadow map whose offset has one of these factors and is `enough`.
     fn tuned(&mut self, factors: &[f64], enough: &dyn Fn(&TunedPoint) -> bool) -> Result<Seen, tune::Error> {
         let mut tick = |_: &TunedPoint| ();
-        let mut search = Search::new(self.scene, self.truth, &self.options, self.renderer, &mut tick);
+        let mut search = Search::new(self.scene, self.ruler, &self.options, self.renderer, &mut tick);
         let Some(point) = search.best_of(self.size, factors, |point| point.leak_facing_percent, enough)? else {
             let metrics = Err(String::from("no such offset has as little false shadow"));
             return Ok(Seen { settings: to_inline(&vary::tuned()), point: None, metrics });
@@ -180,7 +181,7 @@ impl Contest<'_> {
         let shadow = shadow.map_err(|e| e.to_string())?;
         let shade = draw_shade(&with_shadow(self.scene, light, &shadow), light, self.renderer);
         let band = Band { texels: self.options.band_texels, map_size: [self.size; 2] };
-        metrics::compare(self.truth, &shade.map_err(|e| e.to_string())?, &band).map_err(|e| e.to_string())
+        self.ruler.count(&shade.map_err(|e| e.to_string())?, &band).map_err(|e| e.to_string())
     }
 
     /// Median offset over the lit pixels that face the light, in 2⁻²⁴ of the depth range; `None` without such a pixel, or
@@ -191,7 +192,8 @@ impl Contest<'_> {
             DepthFormat::Depth16 => 1.0 / 65535.0,
             DepthFormat::Depth24 | DepthFormat::Depth32 | DepthFormat::Depth32F => (-24.0_f64).exp2(),
         };
-        let lit = self.truth.pixels.iter().filter(|pixel| pixel.answer == Answer::Lit).filter_map(|pixel| pixel.hit);
+        let lit =
+            self.ruler.truth().pixels.iter().filter(|pixel| pixel.answer == Answer::Lit).filter_map(|pixel| pixel.hit);
         let offset = |hit: Hit| point.factor * slope(&hit, &window_from_world) + point.units * unit;
         let mut offsets: Vec<f64> = lit.filter(Hit::faces_light).map(offset).collect();
         offsets.sort_by(f64::total_cmp);

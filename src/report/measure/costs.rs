@@ -17,16 +17,22 @@ pub(super) struct Costs {
     pub passes: Vec<PassCost>,
 }
 
+/// Runs below which passes are timed in one of them: they take as long as the frames that a report is read for.
+const FEW_RUNS: usize = 4;
+
 /// One frame to warm up, then each kind of frame `runs` times.
 pub(super) fn costs(plan: &Plan, runs: usize, renderer: &mut Renderer) -> Result<Costs, frame::Error> {
     renderer.draw_timed(plan, 1, false, || ())?;
     let mut redrawn = Vec::new();
     let mut kept = Vec::new();
     let mut passes: Vec<Vec<PassTime>> = Vec::new();
-    for _ in 0..runs.max(1) {
+    for run in 0..runs.max(1) {
         renderer.device().forget();
         redrawn.extend(renderer.draw_timed(plan, 1, false, || ())?.frames_ms);
         kept.extend(renderer.draw_timed(plan, 1, false, || ())?.frames_ms);
+        if run > 0 && runs < FEW_RUNS {
+            continue;
+        }
         renderer.device().forget();
         passes.push(renderer.device().run(&plan.list, Measure::Passes)?);
     }

@@ -13,7 +13,7 @@ use super::reference::{self, Reference};
 use crate::context;
 use crate::frame::{self, Renderer, draw_shade};
 use crate::judge::colors::{self, compare_colors};
-use crate::judge::metrics::{self, Band, Metrics};
+use crate::judge::metrics::{Band, Metrics, Ruler};
 use crate::plan::{self, Request, ViewRequest};
 use crate::report::store::fingerprint;
 use crate::report::store::results::{
@@ -252,24 +252,31 @@ impl Sweep {
         stop: &Arc<AtomicBool>,
         mut finished: impl FnMut(Row),
     ) -> Result<(), Error> {
-        let work = |place: usize, renderer: &mut Renderer| self.row(todo[place], options, renderer);
+        let ruler = Ruler::new(&self.truth);
+        let work = |place: usize, renderer: &mut Renderer| self.row(todo[place], &ruler, options, renderer);
         frame::on_contexts(&options.context, [todo.len(), options.jobs], stop, work, |_, row| finished(row))?;
         Ok(())
     }
 
-    fn row(&self, index: usize, options: &MeasureOptions, renderer: &mut Renderer) -> Row {
+    fn row(&self, index: usize, ruler: &Ruler<'_>, options: &MeasureOptions, renderer: &mut Renderer) -> Row {
         let GridRow { row, shadow } = &self.rows[index];
         let outcome = match shadow {
-            Ok(shadow) => self.outcome(shadow, options, renderer),
+            Ok(shadow) => self.outcome(shadow, ruler, options, renderer),
             Err(error) => Outcome::Failed(error.to_string()),
         };
         Row { outcome, ..row.clone() }
     }
 
-    fn outcome(&self, shadow: &Shadow, options: &MeasureOptions, renderer: &mut Renderer) -> Outcome {
+    fn outcome(
+        &self,
+        shadow: &Shadow,
+        ruler: &Ruler<'_>,
+        options: &MeasureOptions,
+        renderer: &mut Renderer,
+    ) -> Outcome {
         let scene = with_shadow(&self.scene, options.light, shadow);
         let band = Band { texels: options.band_texels, map_size: [techniques::map_size(shadow); 2] };
-        match self.measure(&scene, &band, options, renderer) {
+        match self.measure(&scene, (ruler, &band), options, renderer) {
             Ok(measured) => Outcome::Measured(Box::new(measured)),
             Err(why) => Outcome::Failed(why),
         }
@@ -278,12 +285,12 @@ impl Sweep {
     fn measure(
         &self,
         scene: &Scene,
-        band: &Band,
+        (ruler, band): (&Ruler<'_>, &Band),
         options: &MeasureOptions,
         renderer: &mut Renderer,
     ) -> Result<Measured, String> {
         let metrics = match &self.report.unshaded {
-            None => check(scene, options.light, &self.truth, band, renderer)?,
+            None => check(scene, options.light, ruler, band, renderer)?,
             Some(_) => Metrics::none(band),
         };
         let colors = self.colors.as_ref().map(|colors| compare_colors(scene, &colors.colors, renderer)).transpose();
@@ -346,9 +353,15 @@ impl Sweep {
 }
 
 /// Draws the shade and compares it with the truth. A frame is not timed before that.
-fn check(scene: &Scene, light: usize, truth: &Truth, band: &Band, renderer: &mut Renderer) -> Result<Metrics, String> {
+fn check(
+    scene: &Scene,
+    light: usize,
+    ruler: &Ruler<'_>,
+    band: &Band,
+    renderer: &mut Renderer,
+) -> Result<Metrics, String> {
     let shade = draw_shade(&in_clear_air(scene), light, renderer).map_err(|error| error.to_string())?;
-    metrics::compare(truth, &shade, band).map_err(|error| error.to_string())
+    ruler.compare(&shade, band).map_err(|error| error.to_string())
 }
 
 /// The scene without dust, which no shade shows.

@@ -5,10 +5,10 @@
 
 use super::grid;
 use crate::frame::{self, Renderer, draw_shade};
-use crate::judge::metrics::{self, Band, FEWEST_COMPARED, Metrics};
+use crate::judge::metrics::{self, Band, FEWEST_COMPARED, Metrics, Ruler};
 use crate::scene::{self, Light, Scene, Settings, SettingsError, Shadow, with_shadow};
 use crate::techniques::{self, vary};
-use crate::truth::{self, Answer, Pixel, Truth};
+use crate::truth::{self, Answer, Pixel};
 
 /// Reason why nothing can be tuned.
 #[derive(Debug, thiserror::Error)]
@@ -151,7 +151,8 @@ pub fn tune(
     let faces = |pixel: &&Pixel| pixel.hit.is_some_and(|hit| hit.faces_light());
     let sure = || truth.pixels.iter().filter(is_sure);
     check_count(options.light, sure().count(), sure().filter(faces).count())?;
-    let mut search = Search::new(scene, &truth, options, renderer, &mut tick);
+    let ruler = Ruler::new(&truth);
+    let mut search = Search::new(scene, &ruler, options, renderer, &mut tick);
     let mut best = Vec::new();
     for size in &options.sizes {
         if let Some(point) = search.best_of(*size, &FACTORS, |point| point.leak_percent, &|point| point.clean)? {
@@ -195,7 +196,7 @@ fn check_count(light: usize, compared: usize, facing: usize) -> Result<(), Error
 /// State of the search on a scene.
 pub(super) struct Search<'a> {
     scene: &'a Scene,
-    truth: &'a Truth,
+    ruler: &'a Ruler<'a>,
     options: &'a TuneOptions,
     renderer: &'a mut Renderer,
     curve: Vec<TunedPoint>,
@@ -205,12 +206,12 @@ pub(super) struct Search<'a> {
 impl<'a> Search<'a> {
     pub(super) fn new(
         scene: &'a Scene,
-        truth: &'a Truth,
+        ruler: &'a Ruler<'a>,
         options: &'a TuneOptions,
         renderer: &'a mut Renderer,
         tick: &'a mut dyn FnMut(&TunedPoint),
     ) -> Self {
-        Self { scene, truth, options, renderer, curve: Vec::new(), tick }
+        Self { scene, ruler, options, renderer, curve: Vec::new(), tick }
     }
 
     /// Chooses, among the points at one map size and slope factors that are `enough`, the one of least `leak`.
@@ -300,7 +301,7 @@ impl<'a> Search<'a> {
         let scene = with_shadow(self.scene, self.options.light, shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer).map_err(|error| error.to_string())?;
         let band = Band { texels: self.options.band_texels, map_size: [techniques::map_size(shadow); 2] };
-        let metrics = metrics::compare(self.truth, &shade, &band).map_err(|error| error.to_string())?;
+        let metrics = self.ruler.count(&shade, &band).map_err(|error| error.to_string())?;
         Ok(RivalErrors {
             false_shadow_percent: metrics.facing.false_shadow.outside_percent,
             leak_percent: metrics.all.leak_percent,
@@ -313,7 +314,7 @@ impl<'a> Search<'a> {
         let scene = with_shadow(self.scene, self.options.light, &shadow);
         let shade = draw_shade(&scene, self.options.light, self.renderer)?;
         let band = Band { texels: self.options.band_texels, map_size: [size; 2] };
-        let Metrics { all, facing, .. } = metrics::compare(self.truth, &shade, &band)?;
+        let Metrics { all, facing, .. } = self.ruler.count(&shade, &band)?;
         let false_shadow_percent = facing.false_shadow.outside_percent;
         let point = TunedPoint {
             size,

@@ -1,5 +1,7 @@
 //! `[camera]`: every key may be absent; missing values are framed on the scene's objects.
 
+use std::collections::HashSet;
+
 use glam::DVec3;
 
 use crate::math::Aabb;
@@ -26,15 +28,14 @@ pub(super) fn read_first(root: &mut Reader<'_>) -> Result<CameraKeys, SettingsEr
         Some(Value::Array(_)) => root.tables("camera")?,
         _ => return read(root.table("camera")?),
     };
-    let mut names: Vec<&str> = Vec::with_capacity(tables.len());
+    let mut names: HashSet<&str> = HashSet::with_capacity(tables.len());
     for table in &tables {
         let mut reader = table.read();
         let name = reader.string("name")?;
         let name = name.ok_or_else(|| reader.missing("name", "`--camera NAME` chooses one of several cameras"))?;
-        if names.contains(&name) {
+        if !names.insert(name) {
             return Err(reader.error("name", format_args!("\"{name}\" is the name of another camera, too")));
         }
-        names.push(name);
     }
     let mut cameras = tables.into_iter().map(|table| read(Some(table))).collect::<Result<Vec<_>, _>>()?;
     Ok(cameras.swap_remove(0))
@@ -152,9 +153,10 @@ impl ObjectsInView<'_> {
 
     fn cut_beyond(&self) -> Option<Said> {
         let far = self.camera.far;
-        let cut = self.objects.iter().zip(&self.spans).filter(|(_, span)| span.most > far);
-        let mut cut = cut.filter(|(object, _)| self.pyramid.shows_beyond(object, far, self.objects, self.size));
-        let (object, span) = cut.next()?;
+        let spans = self.objects.iter().zip(&self.spans).filter(|(_, span)| span.most > far);
+        let (cut, spans): (Vec<&Object>, Vec<&Span>) = spans.unzip();
+        let first = self.pyramid.first_beyond(&cut, far, self.objects, self.size)?;
+        let (object, span) = (cut[first], spans[first]);
         let part = if span.least > far { "" } else { "part of " };
         let ends = Plain(brief(span.most));
         let what = format!("= {} cuts off {part}`{}`, which ends at {ends}", Plain(brief(far)), object.name);

@@ -128,8 +128,8 @@ impl ObjectKeys {
         let triangles = mesh.triangle_count();
         let own_bases = || BasisCounts { triangles, from_mesh: true, ..BasisCounts::default() };
         let bases = bases.or(has_own_bumps.then(own_bases));
-        if self.closed {
-            check_closed(&mesh).map_err(|what| table.read().error("closed", what))?;
+        if let Some(why) = self.closed.then(|| mesh.why_not_closed()).flatten() {
+            return Err(table.read().error("closed", format_args!("is not true: {why}")));
         }
         let world_from_mesh = file_from_mesh.map_or(self.world_from_file, |placed| self.world_from_file * placed);
         let world_from_model = world_from_mesh * DMat4::from_translation(mesh.origin);
@@ -262,17 +262,6 @@ fn relative_to(material: Arc<Material>, origin: DVec3) -> Arc<Material> {
         Some(texgen) => Arc::new(Material { texgen: Some(texgen.relative_to(origin)), ..(*material).clone() }),
         None => material,
     }
-}
-
-/// Refuses a mesh that is not closed as `closed = true` says.
-fn check_closed(mesh: &Mesh) -> Result<(), &'static str> {
-    if !mesh.is_closed() {
-        return Err("is not true: the mesh has open, crowded or turned edges");
-    }
-    if mesh.signed_volume() <= 0.0 {
-        return Err("needs faces that look outwards: those of the mesh look inwards");
-    }
-    Ok(())
 }
 
 /// `{ direction, amplitude, axis, wavelength, phase }`, in model space; `None` where nothing moves.

@@ -67,7 +67,7 @@ fn list(volume: &Volume, viewer: &Viewer) -> PassList {
     let label = String::from("depth and stencil");
     let image = ImageDesc { label, size: SIZE, format: Format::Depth24Stencil8, storage: Storage::Renderbuffer };
     let pass = Pass { label: String::from("count"), redraw: Redraw::Always, work: Work::Draw(pass) };
-    PassList { images: vec![image], passes: vec![pass] }
+    PassList { images: vec![image], passes: vec![pass], ..PassList::default() }
 }
 
 #[test]
