@@ -26,6 +26,8 @@ pub struct ModelWorld {
     pub meshes: Vec<PlacedMesh>,
     pub cameras: Vec<PlacedCamera>,
     pub lights: Vec<PlacedLight>,
+    /// Length of the file's first animation: the time of its last key. 0: there is none.
+    pub seconds: f64,
     /// Names of the scene's nodes, with their numbers.
     pub(super) nodes: Vec<(String, usize)>,
     /// Names of the meshes that the scene's nodes have.

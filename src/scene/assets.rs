@@ -325,7 +325,7 @@ fn canonical(path: &Path) -> PathBuf {
 }
 
 /// Tests whether `path` ends as a model's does.
-pub(super) fn is_model(path: &Path) -> bool {
+pub fn is_model(path: &Path) -> bool {
     MODELS.iter().any(|extension| has_extension(path, extension))
 }
 

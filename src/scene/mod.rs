@@ -66,7 +66,9 @@ pub use views::with_shadow;
 
 use crate::geometry::ModelWorld;
 use crate::math::Aabb;
-use assets::{Assets, has_extension, is_model};
+#[doc(hidden)]
+pub use assets::is_model;
+use assets::{Assets, has_extension};
 use settings::Plain;
 
 /// Greatest size of a scene file, in bytes.
@@ -163,6 +165,19 @@ pub fn load_str(text: &str, folder: &Path, overrides: &[String], shadows: &dyn R
 #[doc(hidden)]
 pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     settings_of(path, overrides, &mut Assets::default())
+}
+
+/// Length in seconds of the first animation of a model's file; 0: it has none.
+///
+/// # Errors
+///
+/// A file that cannot be read, with its name.
+#[doc(hidden)]
+pub fn model_seconds(path: &Path) -> Result<f64, Error> {
+    match is_model(path) {
+        true => Ok(Assets::default().model(path)?.world().map_or(0.0, |world| world.seconds)),
+        false => Ok(0.0),
+    }
 }
 
 /// A TOML file that is no scene, as a table whose entries know their lines.

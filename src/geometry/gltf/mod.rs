@@ -46,7 +46,7 @@ pub(super) fn load(path: &Path, moment: Option<&Moment>) -> Result<(ModelWorld, 
     let surfaces = surfaces.collect::<Result<Vec<_>, _>>()?;
     let shared = vec![None; file.root.meshes.len()];
     let mut meshes = Meshes { file: &file, surfaces, motion, shared, odd };
-    let mut world = ModelWorld { cameras, lights, ..ModelWorld::default() };
+    let mut world = ModelWorld { cameras, lights, seconds: file.seconds(), ..ModelWorld::default() };
     for node in &placed {
         meshes.place(node, &placed, &mut world)?;
     }
