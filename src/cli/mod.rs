@@ -200,9 +200,6 @@ pub enum Error {
     #[error("the picture of the differences: {0}")]
     DifferencePicture(String),
     #[cfg(feature = "window")]
-    #[error("glumbra view -: a scene on standard input has no file to be seen changing; save it first")]
-    ViewStandardInput,
-    #[cfg(feature = "window")]
     #[error("a window has its display's context: --context and --device go with --headless")]
     WindowContext,
     #[cfg(feature = "window")]

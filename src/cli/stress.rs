@@ -176,8 +176,10 @@ fn file_cases(arguments: &StressArgs) -> Result<Vec<Case>, Error> {
         let (cases, warnings) = files::cases(path, &changes);
         warnings.iter().for_each(|warning| super::say(format_args!("warning: {warning}")));
         for case in cases {
-            let alike = all.iter().filter(|other| other.why != case.why && other.name.starts_with(&case.name)).count();
-            let name = if alike == 0 { case.name } else { format!("{}-{}", case.name, alike + 1) };
+            let numbered = (2..).map(|number| format!("{}-{number}", case.name));
+            let mut names = std::iter::once(case.name.clone()).chain(numbered);
+            let is_free = |name: &String| all.iter().all(|other| other.name != *name);
+            let Some(name) = names.find(is_free) else { continue };
             all.push(Case { name, ..case });
         }
     }

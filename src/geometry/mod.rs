@@ -4,6 +4,7 @@
 pub mod bump;
 mod derived;
 mod error;
+mod far;
 #[cfg(feature = "gltf")]
 mod gltf;
 mod map_options;

@@ -80,6 +80,7 @@ mod sheets;
 mod slides;
 mod stencil;
 mod stress;
+mod stress_files;
 mod suns;
 mod support;
 mod tags;

@@ -1,6 +1,7 @@
 //! glTF files, which the tests write themselves: what they place, what they look like, and what is refused.
 
-mod glb;
+mod far;
+pub mod glb;
 mod looks;
 mod malformed;
 mod motion;
