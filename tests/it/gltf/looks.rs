@@ -15,7 +15,7 @@ fn picture() -> Vec<u8> {
 }
 
 /// A wedge with a texture of [`picture`] in the file itself.
-fn textured(sampler: Value, material: impl FnOnce(usize) -> Value) -> Glb {
+pub fn textured(sampler: Value, material: impl FnOnce(usize) -> Value) -> Glb {
     let mut glb = Glb::new();
     let view = glb.view(&picture());
     let image = glb.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));

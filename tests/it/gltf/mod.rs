@@ -6,6 +6,7 @@ mod looks;
 mod malformed;
 mod motion;
 mod places;
+mod tints;
 
 use std::path::Path;
 
