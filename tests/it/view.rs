@@ -323,15 +323,17 @@ fn an_included_file_without_keys_is_watched() {
 fn a_scene_on_standard_input_is_shown_saved_and_not_watched() {
     let folder = Folder::new();
     let expected = folder.render("scene.toml", &[]);
-    let mut command = folder.command(&["view", "-", "--headless", "--keys", "s wait(1)", "-o", "last.png"]);
+    fs::create_dir(folder.path("saved")).unwrap();
+    let options = ["--keys", "s wait(1)", "-o", "last.png", "--save-in", "saved"];
+    let mut command = folder.command(&[&["view", "-", "--headless"], &options[..]].concat());
     let mut child = command.stdin(Stdio::piped()).stdout(Stdio::piped()).stderr(Stdio::piped()).spawn().unwrap();
     child.stdin.take().unwrap().write_all(SCENE.as_bytes()).unwrap();
     let output = child.wait_with_output().unwrap();
     let [said, error] = [output.stdout, output.stderr].map(|bytes| String::from_utf8(bytes).unwrap());
     assert!(output.status.success() && error.contains("read once"), "{error}");
-    assert!(said.contains("saved stdin-view-1.png"), "{said}");
-    assert!(folder.picture("last.png") == expected && folder.picture("stdin-view-1.png") == expected);
-    assert!(folder.render("stdin-view-1.toml", &[]) == expected);
+    assert!(said.contains("saved saved/stdin-view-1.png"), "{said}");
+    assert!(folder.picture("last.png") == expected && folder.picture("saved/stdin-view-1.png") == expected);
+    assert!(folder.render("saved/stdin-view-1.toml", &[]) == expected);
 }
 
 /// Rays are traced anew where the scene, its camera or the picture's size has changed, and for no sheet and no view.

@@ -35,10 +35,11 @@ fn bumped() -> Glb {
     textured(json!({}), normals)
 }
 
-/// A scene with the file `w.glb`. Slides need lights of their own law.
+/// A scene with the file `w.glb`. Slides need lights of their own law, and have no shadows.
 fn text(shading: &str, object: &str) -> String {
     let law = if shading.contains("slide") { "cone = 60\nlaw = \"slide\"" } else { "cone = 60" };
     let start = START.replace("cone = 60", law);
+    let start = if shading.contains("slide") { start.replace("\"shadow-map\", size = 256", "\"none\"") } else { start };
     format!("[shading]\n{shading}\n{start}[[object]]\nname = \"w\"\nmesh = \"w.glb\"\n{object}")
 }
 
