@@ -1,6 +1,6 @@
 //! The files that a scene names: each is loaded once however often it is used, and its loader's warnings are kept.
 
-use std::collections::HashMap;
+use std::collections::{HashMap, HashSet};
 use std::path::{Path, PathBuf};
 use std::sync::Arc;
 
@@ -101,6 +101,8 @@ pub(super) struct Assets {
     files: Files,
     /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
+    /// Warnings that were kept.
+    said: HashSet<String>,
 }
 
 impl Assets {
@@ -185,7 +187,7 @@ impl Assets {
 
     /// Keeps a warning, once.
     pub fn warn(&mut self, warning: String) {
-        if !self.warnings.contains(&warning) {
+        if self.said.insert(warning.clone()) {
             self.warnings.push(warning);
         }
     }

@@ -86,6 +86,7 @@ mod support;
 mod tags;
 mod uploads;
 mod view;
+mod view_kept;
 mod view_window;
 mod viewer;
 mod volume_warnings;

@@ -55,6 +55,8 @@ fn corners_are_where_the_nodes_put_them() {
 fn a_name_is_a_node_with_all_below_it_or_a_mesh_in_its_own_space() {
     let folder = tempfile::tempdir().unwrap();
     let mut glb = nested();
+    // A node behind them, which is not below.
+    glb.root(json!({ "name": "aside", "mesh": 0 }));
     glb.root(json!({ "name": "empty" }));
     glb.write(folder.path(), "n.glb");
     let places = |name: &str| {
