@@ -40,7 +40,9 @@ fn text(shading: &str, object: &str) -> String {
     let law = if shading.contains("slide") { "cone = 60\nlaw = \"slide\"" } else { "cone = 60" };
     let start = START.replace("cone = 60", law);
     let start = if shading.contains("slide") { start.replace("\"shadow-map\", size = 256", "\"none\"") } else { start };
-    format!("[shading]\n{shading}\n{start}[[object]]\nname = \"w\"\nmesh = \"w.glb\"\n{object}")
+    // White, so that no other surface needs the passes of colours.
+    let floor = "material = { diffuse = [1, 1, 1] }\n";
+    format!("[shading]\n{shading}\n{start}{floor}[[object]]\nname = \"w\"\nmesh = \"w.glb\"\n{object}")
 }
 
 #[test]
