@@ -8,7 +8,7 @@ use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 
 use super::obj::polygon;
 use super::tally::WarningTally;
-use super::text::Counted;
+use super::text::CountedBytes;
 use super::{CREASE_DEGREES, Error, Material, Mesh, Part, Warning, far, normals, text};
 use crate::math::Aabb;
 use crate::process;
@@ -146,7 +146,7 @@ pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         if line > 0 { Error::malformed(path, line, what) } else { wrong(String::from("PLY"), what) }
     };
     let reading = process::reading(text::name(path), bytes.len() as u64);
-    let mut reader = Reader::new(Counted { inner: &bytes[..], reading: &reading });
+    let mut reader = Reader::new(CountedBytes { inner: &bytes[..], reading: &reading });
     let header = Parser::<Other>::new().read_header(&mut reader).map_err(|error| broken(&error))?;
     let mut odd = WarningTally::default();
     let (mut vertices, mut faces) = (Vec::new(), Vec::new());

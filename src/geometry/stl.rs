@@ -4,7 +4,7 @@ use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
 
-use super::text::Counted;
+use super::text::CountedBytes;
 use super::{CREASE_DEGREES, Error, Mesh, Part, Warning, far, normals, text};
 use crate::math::Aabb;
 use crate::process;
@@ -28,7 +28,7 @@ pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     let reading = process::reading(text::name(path), bytes.len() as u64);
     for solid in solids(&bytes) {
         let first = mesh.indices.len() / 3;
-        let mut reader = Counted { inner: Cursor::new(solid), reading: &reading };
+        let mut reader = CountedBytes { inner: Cursor::new(solid), reading: &reading };
         let triangles = stl_io::create_stl_reader(&mut reader);
         let triangles = triangles.map_err(|error| wrong(first, format!("is no STL: {error}")))?;
         for (at, triangle) in (first..).zip(triangles) {

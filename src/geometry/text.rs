@@ -61,12 +61,12 @@ fn decode_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
 }
 
 /// A file in memory whose bytes are counted as they are read.
-pub(super) struct Counted<'a, R> {
+pub(super) struct CountedBytes<'a, R> {
     pub inner: R,
     pub reading: &'a Reading,
 }
 
-impl<R: Read> Read for Counted<'_, R> {
+impl<R: Read> Read for CountedBytes<'_, R> {
     fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
         let count = self.inner.read(buffer)?;
         self.reading.advance(count as u64);
@@ -74,7 +74,7 @@ impl<R: Read> Read for Counted<'_, R> {
     }
 }
 
-impl<R: BufRead> BufRead for Counted<'_, R> {
+impl<R: BufRead> BufRead for CountedBytes<'_, R> {
     fn fill_buf(&mut self) -> io::Result<&[u8]> {
         self.inner.fill_buf()
     }
@@ -85,7 +85,7 @@ impl<R: BufRead> BufRead for Counted<'_, R> {
     }
 }
 
-impl<R: Seek> Seek for Counted<'_, R> {
+impl<R: Seek> Seek for CountedBytes<'_, R> {
     fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
         self.inner.seek(to)
     }

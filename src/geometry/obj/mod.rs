@@ -14,7 +14,7 @@ use std::collections::HashSet;
 use std::path::Path;
 
 use super::mtl::{self, Library};
-use super::text::Counted;
+use super::text::CountedBytes;
 use super::{Error, Mesh, Part, Warning, normals, text};
 use crate::math::Aabb;
 use crate::process::{self, Reading};
@@ -104,7 +104,7 @@ fn parse(text: &str, scan: &Scan, library: &Library, reading: &Reading) -> Resul
     let options =
         tobj::LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let rewritten = scan.needs_rewrite.then(|| rewrite::rewrite(text, scan));
-    let mut reader = Counted { inner: rewritten.as_deref().unwrap_or(text).as_bytes(), reading };
+    let mut reader = CountedBytes { inner: rewritten.as_deref().unwrap_or(text).as_bytes(), reading };
     // tobj gets all libraries as one, at its first `mtllib`.
     let asked = Cell::new(false);
     let materials = |_: &Path| match asked.replace(true) {
