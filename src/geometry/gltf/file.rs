@@ -17,7 +17,8 @@ pub(super) struct File {
     pub root: Root,
     /// One for each buffer of the file, of at least the length that it states.
     pub buffers: Vec<Vec<u8>>,
-    /// Bytes of the buffers that are read as numbers: several times where skins or animations need them again.
+    /// Bytes of the buffers that are read as numbers, and once more when their meshes are made: skins and animations read
+    /// some again.
     pub reading: Reading,
 }
 
@@ -50,7 +51,7 @@ impl File {
         };
         let root: Root = gltf::json::deserialize::from_slice(json).map_err(malformed)?;
         let total = root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
-        let reading = process::reading(text::name(path), total);
+        let reading = process::reading(text::name(path), total.saturating_mul(2));
         let mut file = Self { path: path.to_owned(), root, buffers: Vec::new(), reading };
         for index in 0..file.root.buffers.len() {
             let buffer = file.read_buffer(index, binary)?;

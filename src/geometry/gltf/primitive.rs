@@ -38,7 +38,10 @@ pub(super) fn read(
         };
         let reader = Reader { file, primitive, place, deform, odd };
         if let Some(part) = reader.read(surface)? {
+            let bytes =
+                size_of_val(&part.positions[..]) + size_of_val(&part.normals[..]) + size_of_val(&part.indices[..]);
             append(&mut joined, part, &name, file)?;
+            file.reading.advance(bytes as u64);
         }
     }
     joined.update_bounds();
