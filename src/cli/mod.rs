@@ -146,6 +146,10 @@ pub enum Error {
     ReportFiles(#[from] crate::report::store::write::Error),
     #[error("--case {name}: no case has that in its name; `glumbra stress --list` has all")]
     NoSuchCase { name: String },
+    #[error("--case {name}: no case of the given files has that in its name; --list has all")]
+    NoSuchFileCase { name: String },
+    #[error("{path}: cannot be read: {error}", path = .path.display())]
+    ReadFile { path: std::path::PathBuf, error: std::io::Error },
     #[error(transparent)]
     Cases(#[from] crate::cases::Error),
     /// The words of the process that runs cases.
@@ -195,9 +199,6 @@ pub enum Error {
     NotJudged { picture: std::path::PathBuf, what: String },
     #[error("the picture of the differences: {0}")]
     DifferencePicture(String),
-    #[cfg(feature = "window")]
-    #[error("glumbra view -: a scene on standard input has no file to be seen changing; save it first")]
-    ViewStandardInput,
     #[cfg(feature = "window")]
     #[error("a window has its display's context: --context and --device go with --headless")]
     WindowContext,

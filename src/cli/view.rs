@@ -62,7 +62,8 @@ fn help() -> String {
 
 The scene is read again when one of its files changes: the scene, what it includes, \
 meshes, materials and pictures. While a file has an error, the error is shown over \
-the last picture. Nothing is drawn while nothing changes.
+the last picture. Nothing is drawn while nothing changes. A scene on standard input, \
+-, is read once, and its files are not watched.
 
 A saved scene has absolute paths, and `glumbra render` draws it to the saved picture.
 
@@ -85,7 +86,15 @@ pub fn run(arguments: &ViewArgs) -> Result<(), Error> {
     arguments.check()?;
     let path = &arguments.scene.scene;
     arguments.scene.changes.check(path)?;
-    let (sources, loaded) = Sources::load(path, arguments.scene.changes.overrides())?;
+    let overrides = arguments.scene.changes.overrides();
+    let (sources, loaded) = match is_standard_stream(path) {
+        true => {
+            let text = std::io::read_to_string(std::io::stdin()).map_err(Error::Input)?;
+            super::say(format_args!("standard input: read once; changes of the files that it names are not seen"));
+            Sources::of_text("stdin", text, overrides)?
+        }
+        false => Sources::load(path, overrides)?,
+    };
     for warning in &loaded.warnings {
         super::say(format_args!("warning: {warning}"));
     }
@@ -132,9 +141,6 @@ pub fn run(arguments: &ViewArgs) -> Result<(), Error> {
 impl ViewArgs {
     /// Refuses arguments that do not go together, before anything is read.
     fn check(&self) -> Result<(), Error> {
-        if is_standard_stream(&self.scene.scene) {
-            return Err(Error::ViewStandardInput);
-        }
         let chosen = self.context.request(Profile::Core33);
         if !self.headless && (chosen.device.is_some() || !matches!(chosen.choice, Choice::Auto | Choice::Window)) {
             return Err(Error::WindowContext);

@@ -5,6 +5,7 @@ pub mod bump;
 mod closed;
 mod derived;
 mod error;
+mod far;
 #[cfg(feature = "gltf")]
 mod gltf;
 mod map_options;

@@ -142,7 +142,11 @@ impl Library {
             "illum" => "all surfaces are lit as by illum 2",
             "ke" | "map_ke" => "nothing shines by itself",
             "tf" => "nothing is transparent: the alpha test keeps or discards",
-            "bump" | "map_bump" | "norm" | "map_kn" => "surfaces are lit by their meshes' normals",
+            "bump" | "map_bump" => {
+                "MTL has no unit of height, not in -bm either; name the picture in the scene, with its height in texels: \
+                 material = { bump = { height = \"FILE\", scale = 4.0 } }"
+            }
+            "norm" | "map_kn" => "name it in the scene: material = { bump = { normal_map = \"FILE\" } }",
             "disp" | "map_disp" => "vertices stay in their places",
             "refl" | "map_refl" => "nothing mirrors",
             "map_ka" | "map_ks" | "map_ns" | "map_tr" | "map_aat" | "decal" => {

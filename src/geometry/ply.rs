@@ -1,7 +1,6 @@
 //! PLY files, text and binary: vertices with normals, texture coordinates and colours, and polygons [Turk, "The PLY Polygon
 //! File Format"].
 
-use std::io::BufReader;
 use std::path::Path;
 
 use ply_rs_bw::parser::{ParseError, Parser, Reader};
@@ -9,8 +8,10 @@ use ply_rs_bw::ply::{Property, PropertyAccess, PropertyAccessResult};
 
 use super::obj::polygon;
 use super::tally::WarningTally;
-use super::{CREASE_DEGREES, Error, Material, Mesh, Part, Warning, normals, text};
+use super::text::CountedBytes;
+use super::{CREASE_DEGREES, Error, Material, Mesh, Part, Warning, far, normals, text};
 use crate::math::Aabb;
+use crate::process;
 
 /// Names of a vertex's numbers, each with those that other programs write.
 const NAMES: [&[&str]; 11] = [
@@ -31,43 +32,61 @@ const NORMAL: [usize; 3] = [3, 4, 5];
 const COLOR: [usize; 3] = [6, 7, 8];
 const TEXCOORD: [usize; 2] = [9, 10];
 
-/// A line of any element.
+/// A line of `vertex`.
 #[derive(Default)]
-struct Row {
-    numbers: [Option<f64>; NAMES.len()],
-    corners: Option<Vec<i64>>,
+struct Vertex {
+    numbers: [f64; NAMES.len()],
+    /// The numbers that the line has.
+    has: [bool; NAMES.len()],
 }
 
-impl Row {
+impl Vertex {
     fn take<const N: usize>(&self, places: [usize; N]) -> Option<[f64; N]> {
-        let mut out = [0.0; N];
-        for (slot, place) in out.iter_mut().zip(places) {
-            *slot = self.numbers[place]?;
-        }
-        Some(out)
+        places.iter().all(|place| self.has[*place]).then(|| places.map(|place| self.numbers[place]))
     }
 }
 
-impl PropertyAccess for Row {
+impl PropertyAccess for Vertex {
     fn new() -> Self {
         Self::default()
     }
 
     fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
-        if matches!(name, "vertex_indices" | "vertex_index") {
-            self.corners = list(&value);
-            return if self.corners.is_some() {
-                PropertyAccessResult::Set
-            } else {
-                PropertyAccessResult::UnsupportedType
-            };
-        }
         let Some(place) = NAMES.iter().position(|names| names.contains(&name)) else {
             return PropertyAccessResult::Ignored;
         };
+        let Some(number) = number(&value) else { return PropertyAccessResult::UnsupportedType };
         let scale = if COLOR.contains(&place) { full(&value) } else { 1.0 };
-        self.numbers[place] = number(&value).map(|number| number / scale);
-        if self.numbers[place].is_some() { PropertyAccessResult::Set } else { PropertyAccessResult::UnsupportedType }
+        (self.numbers[place], self.has[place]) = (number / scale, true);
+        PropertyAccessResult::Set
+    }
+}
+
+/// A line of `face`: its vertices, counted from 0.
+#[derive(Default)]
+struct Face(Vec<i64>);
+
+impl PropertyAccess for Face {
+    fn new() -> Self {
+        Self::default()
+    }
+
+    fn set_property(&mut self, name: &str, value: Property) -> PropertyAccessResult {
+        if !matches!(name, "vertex_indices" | "vertex_index") {
+            return PropertyAccessResult::Ignored;
+        }
+        let Some(corners) = list(&value) else { return PropertyAccessResult::UnsupportedType };
+        self.0 = corners;
+        PropertyAccessResult::Set
+    }
+}
+
+/// A line of another element.
+struct Other;
+
+impl PropertyAccess for Other {
+    fn new() -> Self {
+        Self
     }
 }
 
@@ -110,7 +129,7 @@ fn list(value: &Property) -> Option<Vec<i64>> {
 }
 
 /// Reads a PLY file: the elements `vertex` and `face`. Normals that it lacks are made from the triangles, smooth up to
-/// [`CREASE_DEGREES`]. Colours of vertices multiply a white material; their alpha is left out.
+/// [`CREASE_DEGREES`]. Positions far from the file's origin are relative to [`Mesh::origin`]. Colours of vertices multiply a white material; their alpha is left out.
 ///
 /// # Errors
 ///
@@ -126,17 +145,31 @@ pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         let what = first.strip_prefix(&format!("Line {line}: ")).unwrap_or(first).to_owned();
         if line > 0 { Error::malformed(path, line, what) } else { wrong(String::from("PLY"), what) }
     };
-    let parser = Parser::<Row>::new();
-    let mut reader = Reader::new(BufReader::new(&bytes[..]));
-    let header = parser.read_header(&mut reader).map_err(|error| broken(&error))?;
-    let payload = parser.read_payload(&mut reader, &header).map_err(|error| broken(&error))?;
+    let reading = process::reading(text::name(path), bytes.len() as u64);
+    let mut reader = Reader::new(CountedBytes { inner: &bytes[..], reading: &reading });
+    let header = Parser::<Other>::new().read_header(&mut reader).map_err(|error| broken(&error))?;
     let mut odd = WarningTally::default();
-    for name in header.elements.keys().filter(|name| !matches!(name.as_str(), "vertex" | "face")) {
-        odd.note(name, path, 0, || format!("element {name}: is not drawn"));
+    let (mut vertices, mut faces) = (Vec::new(), Vec::new());
+    for (name, element) in &header.elements {
+        match name.as_str() {
+            "vertex" => {
+                let read = Parser::<Vertex>::new().read_payload_for_element(&mut reader, element, &header);
+                read.map(|read| vertices = read)
+            }
+            "face" => {
+                let read = Parser::<Face>::new().read_payload_for_element(&mut reader, element, &header);
+                read.map(|read| faces = read)
+            }
+            _ => {
+                odd.note(name, path, 0, || format!("element {name}: is not drawn"));
+                Parser::<Other>::new().read_payload_for_element(&mut reader, element, &header).map(drop)
+            }
+        }
+        .map_err(|error| broken(&error))?;
     }
-    let rows = |name: &str| payload.get(name).map_or(&[][..], Vec::as_slice);
-    let mut mesh = vertices(rows("vertex"), path)?;
-    faces(&mut mesh, rows("face"), path, &mut odd)?;
+    let mut mesh = mesh_of(&vertices, path)?;
+    drop(vertices);
+    cut(&mut mesh, &faces, path, &mut odd)?;
     if mesh.indices.is_empty() {
         return Err(Error::NoFaces { path: path.to_owned() });
     }
@@ -145,28 +178,27 @@ pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
 }
 
 /// The vertices, whose normals may be missing.
-fn vertices(rows: &[Row], path: &Path) -> Result<Mesh, Error> {
+fn mesh_of(rows: &[Vertex], path: &Path) -> Result<Mesh, Error> {
     let wrong = |at: usize, what: &str| {
         let place = format!("vertex {at}");
         Error::Inside { path: path.to_owned(), place, what: what.to_owned() }
     };
     let mut mesh = Mesh::default();
-    let has =
-        |places: &[usize]| rows.first().is_some_and(|first| places.iter().all(|place| first.numbers[*place].is_some()));
-    let (mut colors, mut texcoords) = (Vec::new(), Vec::new());
+    let has = |places: &[usize]| rows.first().is_some_and(|first| places.iter().all(|place| first.has[*place]));
+    let (mut positions, mut colors, mut texcoords) = (Vec::new(), Vec::new(), Vec::new());
     for (at, row) in rows.iter().enumerate() {
         let position = row.take(POSITION).ok_or_else(|| wrong(at, "has no x, y and z"))?;
-        let position = position.map(|number| number as f32);
-        if !position.iter().all(|number| number.is_finite()) {
+        if !position.iter().all(|number| (*number as f32).is_finite()) {
             return Err(wrong(at, "has a position that is not finite"));
         }
-        mesh.positions.push(position);
+        positions.push(position);
         mesh.normals.push(row.take(NORMAL).map_or([0.0; 3], |normal| normal.map(|number| number as f32)));
         let color = row.take(COLOR).unwrap_or([1.0; 3]);
         // Not a number is black.
         colors.push(color.map(|channel| if channel.is_nan() { 0.0 } else { channel.clamp(0.0, 1.0) as f32 }));
         texcoords.push(row.take(TEXCOORD).unwrap_or_default().map(|number| number as f32));
     }
+    (mesh.positions, mesh.origin) = far::relative(&positions);
     mesh.colors = has(&COLOR).then_some(colors);
     mesh.texcoords = has(&TEXCOORD).then_some(texcoords);
     if mesh.texcoords.iter().flatten().flatten().any(|number| !number.is_finite()) {
@@ -176,11 +208,10 @@ fn vertices(rows: &[Row], path: &Path) -> Result<Mesh, Error> {
 }
 
 /// The polygons, cut into triangles.
-fn faces(mesh: &mut Mesh, rows: &[Row], path: &Path, odd: &mut WarningTally) -> Result<(), Error> {
+fn cut(mesh: &mut Mesh, rows: &[Face], path: &Path, odd: &mut WarningTally) -> Result<(), Error> {
     let count = mesh.positions.len();
     for (at, row) in rows.iter().enumerate() {
-        let corners = row.corners.as_deref().unwrap_or_default();
-        let known = corners.iter().map(|corner| u32::try_from(*corner).ok().filter(|index| (*index as usize) < count));
+        let known = row.0.iter().map(|corner| u32::try_from(*corner).ok().filter(|index| (*index as usize) < count));
         let Some(face) = known.collect::<Option<Vec<u32>>>() else {
             let what = format!("names a vertex that is none of the {count}");
             return Err(Error::Inside { path: path.to_owned(), place: format!("face {at}"), what });

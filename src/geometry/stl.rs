@@ -4,8 +4,10 @@ use std::collections::HashMap;
 use std::io::Cursor;
 use std::path::Path;
 
-use super::{CREASE_DEGREES, Error, Mesh, Part, Warning, normals, text};
+use super::text::CountedBytes;
+use super::{CREASE_DEGREES, Error, Mesh, Part, Warning, far, normals, text};
 use crate::math::Aabb;
+use crate::process;
 
 /// Bytes before the triangles of a binary file, and bytes of each.
 const HEADER: usize = 84;
@@ -23,9 +25,10 @@ pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
         |at: usize, what: String| Error::Inside { path: path.to_owned(), place: format!("triangle {at}"), what };
     let mut mesh = Mesh { name: path.display().to_string(), ..Mesh::default() };
     let mut known: HashMap<[u32; 3], u32> = HashMap::new();
+    let reading = process::reading(text::name(path), bytes.len() as u64);
     for solid in solids(&bytes) {
         let first = mesh.indices.len() / 3;
-        let mut reader = Cursor::new(solid);
+        let mut reader = CountedBytes { inner: Cursor::new(solid), reading: &reading };
         let triangles = stl_io::create_stl_reader(&mut reader);
         let triangles = triangles.map_err(|error| wrong(first, format!("is no STL: {error}")))?;
         for (at, triangle) in (first..).zip(triangles) {
@@ -50,6 +53,9 @@ pub(super) fn load(path: &Path) -> Result<(Mesh, Vec<Warning>), Error> {
     if mesh.indices.is_empty() {
         return Err(Error::NoFaces { path: path.to_owned() });
     }
+    // A text's digits beyond those of f32 are lost in the crate that reads it.
+    let positions: Vec<[f64; 3]> = mesh.positions.iter().map(|position| position.map(f64::from)).collect();
+    (mesh.positions, mesh.origin) = far::relative(&positions);
     let indices = u32::try_from(mesh.indices.len());
     let end = indices.map_err(|_| Error::TooLarge { path: path.to_owned(), what: "indices" })?;
     normals::complete(&mut mesh, CREASE_DEGREES.to_radians());

@@ -1,9 +1,12 @@
-//! Decodes text files: UTF-8 with or without its mark, UTF-16 with one, Latin-1; any line ends.
+//! Decodes text files: UTF-8 with or without its mark, UTF-16 with one, Latin-1; any line ends. Counts the bytes that a parser
+//! reads.
 
 use std::borrow::Cow;
+use std::io::{self, BufRead, Read, Seek, SeekFrom};
 use std::path::Path;
 
 use super::Error;
+use crate::process::Reading;
 
 /// The whole file.
 pub(super) fn read(path: &Path) -> Result<Vec<u8>, Error> {
@@ -55,6 +58,37 @@ fn decode_bytes(bytes: &[u8]) -> Cow<'_, str> {
 fn decode_utf16(bytes: &[u8], unit: fn([u8; 2]) -> u16) -> String {
     let units = bytes.chunks_exact(2).map(|pair| unit([pair[0], pair[1]]));
     char::decode_utf16(units).map(|c| c.unwrap_or(char::REPLACEMENT_CHARACTER)).collect()
+}
+
+/// A file in memory whose bytes are counted as they are read.
+pub(super) struct CountedBytes<'a, R> {
+    pub inner: R,
+    pub reading: &'a Reading,
+}
+
+impl<R: Read> Read for CountedBytes<'_, R> {
+    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
+        let count = self.inner.read(buffer)?;
+        self.reading.advance(count as u64);
+        Ok(count)
+    }
+}
+
+impl<R: BufRead> BufRead for CountedBytes<'_, R> {
+    fn fill_buf(&mut self) -> io::Result<&[u8]> {
+        self.inner.fill_buf()
+    }
+
+    fn consume(&mut self, amount: usize) {
+        self.inner.consume(amount);
+        self.reading.advance(amount as u64);
+    }
+}
+
+impl<R: Seek> Seek for CountedBytes<'_, R> {
+    fn seek(&mut self, to: SeekFrom) -> io::Result<u64> {
+        self.inner.seek(to)
+    }
 }
 
 /// A line with what continues it: a `\` at a line's end joins the next.

@@ -1,5 +1,6 @@
 //! The scene of a model's file: meshes that nodes place, cameras and lights.
 
+use std::ops::Range;
 use std::sync::Arc;
 
 use glam::{DMat4, DVec3};
@@ -15,8 +16,8 @@ pub struct PlacedMesh {
     /// Shared by the nodes that have it.
     pub mesh: Arc<Mesh>,
     pub world_from_model: DMat4,
-    /// Numbers of its node and of those above it.
-    pub(super) line: Vec<usize>,
+    /// Its node's place in the order of [`ModelWorld::nodes`].
+    pub(super) place: usize,
 }
 
 /// The scene of a file.
@@ -26,8 +27,10 @@ pub struct ModelWorld {
     pub meshes: Vec<PlacedMesh>,
     pub cameras: Vec<PlacedCamera>,
     pub lights: Vec<PlacedLight>,
-    /// Names of the scene's nodes, with their numbers.
-    pub(super) nodes: Vec<(String, usize)>,
+    /// Length of the file's first animation: the time of its last key. 0: there is none.
+    pub seconds: f64,
+    /// Names of the scene's nodes, each followed by those below it: their places in this list, its own first.
+    pub(super) nodes: Vec<(String, Range<usize>)>,
     /// Names of the meshes that the scene's nodes have.
     pub(super) own: Vec<(String, Arc<Mesh>)>,
 }
@@ -109,8 +112,8 @@ impl ModelWorld {
     /// Bounds of all meshes in the world.
     pub fn bounds(&self) -> Aabb {
         let corners = |placed: &PlacedMesh| {
-            let world_from_model = placed.world_from_model;
-            placed.mesh.bounds.corners().map(|corner| world_from_model.transform_point3(corner))
+            let (world_from_file, origin) = (placed.world_from_model, placed.mesh.origin);
+            placed.mesh.bounds.corners().map(|corner| world_from_file.transform_point3(corner + origin))
         };
         Aabb::from_points(self.meshes.iter().flat_map(corners))
     }
@@ -118,14 +121,14 @@ impl ModelWorld {
     /// Finds the node or the mesh of a name.
     pub fn named(&self, wanted: &str) -> Named {
         let mut nodes = self.nodes.iter().filter(|(name, _)| name == wanted);
-        if let Some((_, number)) = nodes.next() {
-            let below = self.meshes.iter().filter(|placed| placed.line.contains(number)).cloned();
+        if let Some((_, places)) = nodes.next() {
+            let below = self.meshes.iter().filter(|placed| places.contains(&placed.place)).cloned();
             return Named::Node(below.collect(), nodes.count());
         }
         match self.own.iter().find(|(name, _)| name == wanted) {
             Some((name, mesh)) => {
                 let (name, mesh) = (name.clone(), mesh.clone());
-                Named::Mesh(PlacedMesh { name, mesh, world_from_model: DMat4::IDENTITY, line: Vec::new() })
+                Named::Mesh(PlacedMesh { name, mesh, world_from_model: DMat4::IDENTITY, place: 0 })
             }
             None => {
                 let names = self.nodes.iter().map(|(name, _)| name).chain(self.own.iter().map(|(name, _)| name));

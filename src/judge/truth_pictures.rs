@@ -64,20 +64,40 @@ impl TruthView {
         drawn: Option<&Pixels>,
         is_exact: bool,
     ) -> Result<Pixels, Error> {
+        self.of_traced(&self.trace(scene, is_exact)?, scene, picture, drawn, is_exact)
+    }
+
+    fn trace(self, scene: &Scene, is_exact: bool) -> Result<Traced, Error> {
         let (light, count) = (self.light, scene.lights.len());
         if light > 0 && light >= count {
             return Err(truth::Error::NoLight { index: light, count }.into());
         }
         if has_projected_light(scene) {
-            return Ok(colors(scene, picture, self.is_difference, is_exact)?);
+            let shadows: Vec<_> = scene.lights.iter().map(|light| shadow_of(&light.shadow, false)).collect();
+            let request = ColorRequest { float_picture: is_exact, ..ColorRequest::default() };
+            return Ok(Traced::Colors(truth::color_as(scene, &shadows, &request, &color_options(scene))?));
         }
         let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
-        let truth = truth::trace(scene, light, &options)?;
+        Ok(Traced::Shade(truth::trace(scene, light, &options)?))
+    }
+
+    fn of_traced(
+        self,
+        traced: &Traced,
+        scene: &Scene,
+        picture: &Pixels,
+        drawn: Option<&Pixels>,
+        is_exact: bool,
+    ) -> Result<Pixels, Error> {
+        let truth = match traced {
+            Traced::Colors(truth) => return Ok(of_colors(truth, picture, self.is_difference, is_exact)),
+            Traced::Shade(truth) => truth,
+        };
         let picture = match drawn {
             Some(Pixels::RgbaF32 { data, .. }) if self.is_difference => {
-                difference_picture(&truth, &ShadeImage::of_view(scene.image.size, data))?
+                difference_picture(truth, &ShadeImage::of_view(scene.image.size, data))?
             }
-            _ => truth_picture(&truth),
+            _ => truth_picture(truth),
         };
         Ok(opaque(&picture, is_exact))
     }
@@ -98,19 +118,60 @@ impl TruthView {
     }
 }
 
+/// Answers of the ray tracer.
+#[derive(Clone, Debug)]
+enum Traced {
+    Shade(truth::Truth),
+    Colors(truth::ColorTruth),
+}
+
+/// The answers that were traced last, for pictures in 8 bits of a scene that stands still.
+#[derive(Clone, Debug, Default)]
+pub struct TruthMemory {
+    /// The light, and the scene as its owner describes it.
+    kept: Option<(usize, String, Traced)>,
+    traces: u64,
+}
+
+impl TruthMemory {
+    /// As [`TruthView::picture`]. Rays are traced if the light or `state` is another than in the last call; `state`: a text
+    /// that differs for scenes with different answers.
+    ///
+    /// # Errors
+    ///
+    /// As [`TruthView::picture`].
+    pub fn picture(
+        &mut self,
+        view: TruthView,
+        state: &str,
+        scene: &Scene,
+        picture: &Pixels,
+        drawn: Option<&Pixels>,
+    ) -> Result<Pixels, Error> {
+        let kept = self.kept.take().filter(|(light, known, _)| *light == view.light && known == state);
+        let traced = match kept {
+            Some((_, _, traced)) => traced,
+            None => {
+                self.traces += 1;
+                view.trace(scene, false)?
+            }
+        };
+        let (_, _, traced) = self.kept.insert((view.light, state.to_owned(), traced));
+        view.of_traced(traced, scene, picture, drawn, false)
+    }
+
+    /// Number of times that rays were traced.
+    pub fn traces(&self) -> u64 {
+        self.traces
+    }
+}
+
 /// Number of the first colours of [`LEGEND`], which only a difference has.
 const ONLY_DIFFERENT: usize = 3;
 
-/// Colours in f64, or the picture's differences from them, channel by channel. At edges, and where images are filtered by
-/// mipmaps, a colour has bounds, and within them there is no difference. Where it is not known: grey, and alpha 0.
-fn colors(scene: &Scene, picture: &Pixels, is_difference: bool, is_exact: bool) -> Result<Pixels, truth::Error> {
-    let shadows: Vec<_> = scene.lights.iter().map(|light| shadow_of(&light.shadow, false)).collect();
-    let request = ColorRequest { float_picture: is_exact, ..ColorRequest::default() };
-    let truth = truth::color_as(scene, &shadows, &request, &color_options(scene))?;
-    Ok(of_colors(&truth, picture, is_difference, is_exact))
-}
-
-/// The same by colours that are known already; `picture` has their size.
+/// Colours in f64, or the differences from them of `picture`, which has their size, channel by channel. At edges, and where
+/// images are filtered by mipmaps, a colour has bounds, and within them there is no difference. Where it is not known: grey, and
+/// alpha 0.
 pub fn of_colors(truth: &truth::ColorTruth, picture: &Pixels, is_difference: bool, is_exact: bool) -> Pixels {
     let drawn: Vec<f32> = match picture {
         Pixels::Rgba8 { data, .. } => data.iter().map(|code| f32::from(*code) / 255.0).collect(),

@@ -1,5 +1,7 @@
 //! Notes on bump-mapped objects: their maps and tangent bases, how they are lit, and what is not exact.
 
+use std::sync::Arc;
+
 use super::Notes;
 use crate::combiners::Precision;
 use crate::geometry::bump::{BumpSource, Gloss, NormalFormat};
@@ -17,8 +19,8 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
     let mut any = false;
     for object in &scene.objects {
         note_gloss(scene, object, notes);
-        let bump = object.material.as_ref().and_then(|material| material.bump.as_ref());
-        let Some((bump, counts)) = bump.zip(object.bases) else { continue };
+        let bumps = bumps_of(object);
+        let Some((bump, counts)) = bumps.first().zip(object.bases) else { continue };
         if !object.lit {
             notes.left_out(format!("bumps of {}", object.name), "lit = false: its normals do not count");
             continue;
@@ -29,7 +31,8 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
             continue;
         }
         any = true;
-        let (of, choice) = (format!("bumps of {}", object.name), of_map(bump));
+        let maps: Vec<String> = bumps.iter().map(|bump| of_map(bump)).collect();
+        let (of, choice) = (format!("bumps of {}", object.name), maps.join("; "));
         notes.chosen(of, choice, of_bases(bump.fit, &counts));
         if counts.without > 0 {
             notes.warnings.push(format!(
@@ -61,6 +64,23 @@ pub fn note_bumps(scene: &Scene, notes: &mut Notes) {
             note_lenses(scene, notes);
         }
     }
+}
+
+/// The bump maps of an object's own material, else of its file's, each once.
+fn bumps_of(object: &Object) -> Vec<&Arc<Bump>> {
+    let mut found: Vec<&Arc<Bump>> = Vec::new();
+    for bump in materials_of(object).filter_map(|material| material.bump.as_ref()) {
+        if !found.iter().any(|known| Arc::ptr_eq(known, bump)) {
+            found.push(bump);
+        }
+    }
+    found
+}
+
+/// An object's own material, else those of its file.
+fn materials_of(object: &Object) -> impl Iterator<Item = &Material> {
+    let of_file = if object.material.is_some() { &[][..] } else { &object.mesh.materials };
+    object.material.as_deref().into_iter().chain(of_file)
 }
 
 /// Notes a gloss that changes nothing.
@@ -141,7 +161,7 @@ fn of_combiners(shading: &BumpShading) -> String {
 /// Warns of colours above 1, which registers clamp: the light's times the material's, at the light itself.
 fn note_clamped_colors(scene: &Scene, notes: &mut Notes) {
     let materials = scene.objects.iter().filter(|object| object.bases.is_some() && object.lit);
-    let materials: Vec<&Material> = materials.filter_map(|object| object.material.as_deref()).collect();
+    let materials: Vec<&Material> = materials.flat_map(materials_of).filter(|own| own.bump.is_some()).collect();
     for (index, light) in scene.lights.iter().enumerate() {
         let of = |material: &&Material| {
             let pairs = |light: [f32; 3], own: [f32; 3]| (0..3).map(move |k| light[k] * own[k]).fold(0.0, f32::max);

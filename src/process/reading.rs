@@ -6,6 +6,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 /// Steps, the latest last.
 static STEPS: Mutex<Vec<Arc<Step>>> = Mutex::new(Vec::new());
 
+#[derive(Debug)]
 struct Step {
     what: String,
     total: u64,
@@ -13,6 +14,7 @@ struct Step {
 }
 
 /// A step that lasts until this is dropped.
+#[derive(Debug)]
 #[must_use]
 pub(crate) struct Reading(Arc<Step>);
 

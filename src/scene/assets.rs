@@ -101,6 +101,7 @@ pub(super) struct Assets {
     files: Files,
     /// Warnings of the loaders and of the scene, each once.
     pub warnings: Vec<String>,
+    /// Warnings that were kept.
     said: HashSet<String>,
 }
 
@@ -326,7 +327,7 @@ fn canonical(path: &Path) -> PathBuf {
 }
 
 /// Tests whether `path` ends as a model's does.
-pub(super) fn is_model(path: &Path) -> bool {
+pub fn is_model(path: &Path) -> bool {
     MODELS.iter().any(|extension| has_extension(path, extension))
 }
 

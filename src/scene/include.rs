@@ -33,17 +33,32 @@ pub(super) fn document(path: &Path) -> Result<Settings, Error> {
 ///
 /// As [`document`].
 pub(super) fn complete(root: Settings, path: &Path) -> Result<Settings, Error> {
-    Includes { open: vec![path.to_owned()], files: 1 }.complete(root)
+    Includes::of(path).complete(root)
+}
+
+/// The files that the scene file `path` includes, each as often as it is included.
+///
+/// # Errors
+///
+/// As [`document`].
+pub(super) fn files(path: &Path) -> Result<Vec<PathBuf>, Error> {
+    let mut includes = Includes::of(path);
+    includes.complete(parse::document(path, &read_text(path, LONGEST_FILE)?)?)?;
+    Ok(includes.files)
 }
 
 struct Includes {
     /// Files that are being read, the outermost first.
     open: Vec<PathBuf>,
-    /// Files read so far.
-    files: usize,
+    /// Files that were included so far.
+    files: Vec<PathBuf>,
 }
 
 impl Includes {
+    fn of(path: &Path) -> Self {
+        Self { open: vec![path.to_owned()], files: Vec::new() }
+    }
+
     fn complete(&mut self, mut root: Settings) -> Result<Settings, Error> {
         let Some(place) = root.entries.iter().position(|(key, _)| key == KEY) else { return Ok(root) };
         let (_, entry) = root.entries.remove(place);
@@ -77,8 +92,8 @@ impl Includes {
             chain.push(path.display().to_string());
             return refuse(format!("goes round in a circle: {}", chain.join(" includes ")));
         }
-        self.files += 1;
-        if self.files > MOST_FILES {
+        self.files.push(path.clone());
+        if self.files.len() >= MOST_FILES {
             return refuse(format!("\"{name}\": a scene is made of {MOST_FILES} files at most"));
         }
         let unreadable = |error: Error| match error {

@@ -67,7 +67,9 @@ pub use views::with_shadow;
 
 use crate::geometry::ModelWorld;
 use crate::math::Aabb;
-use assets::{Assets, has_extension, is_model};
+#[doc(hidden)]
+pub use assets::is_model;
+use assets::{Assets, has_extension};
 use settings::Plain;
 
 /// Greatest size of a scene file, in bytes.
@@ -153,17 +155,63 @@ pub fn load(path: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Resu
 #[doc(hidden)]
 pub fn load_str(text: &str, folder: &Path, overrides: &[String], shadows: &dyn ReadShadow) -> Result<Loaded, Error> {
     let mut assets = Assets::default();
+    let root = settings_of_text(text, folder, overrides)?;
+    let scene = resolve::scene(&root, &mut assets, shadows)?;
+    Ok(Loaded { scene, warnings: assets.warnings })
+}
+
+/// As [`settings`], from the text of a scene file: see [`load_str`].
+///
+/// # Errors
+///
+/// As [`load`].
+#[doc(hidden)]
+pub fn settings_of_text(text: &str, folder: &Path, overrides: &[String]) -> Result<Settings, Error> {
     let path = folder.join("<text>");
     let mut root = include::complete(parse::document(&path, text)?, &path)?;
     overrides::apply(&mut root, overrides)?;
-    let scene = resolve::scene(&root, &mut assets, shadows)?;
-    Ok(Loaded { scene, warnings: assets.warnings })
+    Ok(root)
+}
+
+/// As [`portable_settings`], from the text of a scene file: see [`load_str`].
+///
+/// # Errors
+///
+/// As [`load`].
+#[doc(hidden)]
+pub fn portable_settings_of_text(text: &str, folder: &Path, overrides: &[String]) -> Result<Settings, Error> {
+    let mut root = settings_of_text(text, folder, overrides)?;
+    files::make_absolute(&mut root, None)?;
+    Ok(root)
+}
+
+/// The files that a scene file includes, and those that they do.
+///
+/// # Errors
+///
+/// As [`load`].
+#[doc(hidden)]
+pub fn included_files(path: &Path) -> Result<Vec<std::path::PathBuf>, Error> {
+    include::files(path)
 }
 
 /// The scene as [`load`] reads it, before it is resolved: for [`Settings::to_toml`].
 #[doc(hidden)]
 pub fn settings(path: &Path, overrides: &[String]) -> Result<Settings, Error> {
     settings_of(path, overrides, &mut Assets::default())
+}
+
+/// Length in seconds of the first animation of a model's file; 0: it has none.
+///
+/// # Errors
+///
+/// A file that cannot be read, with its name.
+#[doc(hidden)]
+pub fn model_seconds(path: &Path) -> Result<f64, Error> {
+    match is_model(path) {
+        true => Ok(Assets::default().model(path)?.world().map_or(0.0, |world| world.seconds)),
+        false => Ok(0.0),
+    }
 }
 
 /// A TOML file that is no scene, as a table whose entries know their lines.

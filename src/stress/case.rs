@@ -12,6 +12,8 @@ pub struct Case {
     pub name: String,
     /// True if it was made from a seed; `false`: a named case.
     pub is_random: bool,
+    /// True if it is of a file that was given: what its loader warned of excuses no wrong picture of what it did load.
+    pub is_given: bool,
     /// Extreme property of the scene.
     pub why: String,
     /// The scene file.
@@ -32,6 +34,8 @@ pub struct Case {
     pub sweep: Option<(String, f64)>,
     /// True if the scene cannot be drawn, and must be refused.
     pub refused: bool,
+    /// Reason why the scene was refused before there was a text of it.
+    pub refusal: Option<String>,
 }
 
 macro_rules! files {

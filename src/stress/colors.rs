@@ -17,7 +17,7 @@ use crate::techniques;
 use crate::truth::{self, ColorPixel, ColorRequest, ColorTruth};
 
 /// Names of the rows, in a table's order.
-pub const NAMES: [&str; 6] = ["beam", "slide-projector", "alpha-shadows", "focus", "dust", "bump"];
+pub const NAMES: [&str; 7] = ["beam", "slide-projector", "alpha-shadows", "focus", "dust", "bump", "colors"];
 
 /// Codes of 1/255 that a pixel may be off beyond what the error of its sample explains: its own rounding, and half a code
 /// each for the texels of a map, between them, and between those of a law of distance.
@@ -37,7 +37,8 @@ pub fn name_of(scene: &Scene) -> &'static str {
         PicturePasses::One if spots().any(|spot| Spot::lens(spot).is_some()) => NAMES[3],
         PicturePasses::One if scene.lights.iter().any(|light| light.dust.is_some()) => NAMES[4],
         PicturePasses::One if scene.objects.iter().any(|object| object.bases.is_some()) => NAMES[5],
-        PicturePasses::One => NAMES[0],
+        PicturePasses::One if has_projected_light(scene) => NAMES[0],
+        PicturePasses::One => NAMES[6],
     }
 }
 

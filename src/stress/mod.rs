@@ -1,4 +1,4 @@
-//! Scenes against truth: named extreme cases and random scenes, each drawn by every technique and each of its settings
+//! Scenes against truth: named extreme cases, random scenes and files that are given, each drawn by every technique and each of its settings
 //! that matters, each picture judged by the ray caster.
 //!
 //! Every error must be reported: a row ends as right, warned, refused, or *silently wrong* ([`Verdict`]).
@@ -7,6 +7,7 @@
 mod bumps;
 mod case;
 mod colors;
+pub mod files;
 mod judge;
 pub mod named;
 mod page;

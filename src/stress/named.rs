@@ -131,6 +131,7 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
     Ok(Case {
         name: sweep.map_or_else(|| entry.name.clone(), |(_, value)| format!("{}-{value:e}", entry.name)),
         is_random: false,
+        is_given: false,
         why: entry.why.clone(),
         toml: (*toml).to_owned(),
         set,
@@ -141,6 +142,7 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
         colors: entry.judged == Judgement::Colors,
         sweep: sweep.map(|(parameter, value)| (parameter.clone(), value)),
         refused: entry.refused,
+        refusal: None,
     })
 }
 

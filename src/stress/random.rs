@@ -19,6 +19,7 @@ pub fn case(seed: u64, index: u64) -> Case {
         files: files_named_in(&toml),
         toml,
         is_random: true,
+        is_given: false,
         why: String::from("a random scene"),
         set: Vec::new(),
         made: Vec::new(),
@@ -27,6 +28,7 @@ pub fn case(seed: u64, index: u64) -> Case {
         colors: false,
         sweep: None,
         refused: false,
+        refusal: None,
     }
 }
 

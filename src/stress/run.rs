@@ -15,7 +15,7 @@ use crate::frame::{self, Renderer};
 use crate::geometry::Material;
 use crate::judge::{Bound, difference};
 use crate::png_file::{self, PngTexts};
-use crate::scene::BumpShading;
+use crate::scene::{BumpShading, Light, Scene};
 use crate::truth::Truth;
 
 /// Options of a run.
@@ -79,7 +79,13 @@ fn draw_rows(
     renderer: &mut Renderer,
     result: &mut CaseResult,
 ) -> Result<(), String> {
-    let loaded = case.load(folder)?;
+    if let Some(why) = &case.refusal {
+        return Err(why.clone());
+    }
+    let mut loaded = case.load(folder)?;
+    if case.is_given {
+        loaded.warnings.clear();
+    }
     let pictured = loaded.scene;
     // Shadows are judged without photographs, which show none, and without bumps, which have dark sides of their own.
     let mut scene = pictured.clone();
@@ -95,9 +101,9 @@ fn draw_rows(
     for (light, source) in scene.lights.iter().enumerate().filter(|_| case.shades) {
         let mut judge = RowJudge::new(&scene, light).map_err(|error| error.to_string())?;
         shares.push(decided(judge.judge().truth(&Bound::NoMap)));
-        // All settings of one light; of the others each technique's own.
+        // All settings of one light, or of one of each kind; of the others each technique's own.
         let rows = match case.rows.is_empty() {
-            true => rows(&scene, &source.kind, light > 0),
+            true => rows(&scene, &source.kind, has_all_rows_before(case, &scene, light)),
             false => case.rows.iter().map(|inside| row_of(inside)).collect(),
         };
         let one_in = if case.rows.is_empty() { options.one_in } else { 1 };
@@ -123,6 +129,16 @@ fn draw_rows(
     }
     result.decided = shares.iter().sum::<f64>() / shares.len().max(1) as f64;
     Ok(())
+}
+
+/// Tests whether a light before this one has the rows of all settings.
+fn has_all_rows_before(case: &Case, scene: &Scene, light: usize) -> bool {
+    let kind = |light: &Light| std::mem::discriminant(&light.kind);
+    let before = &scene.lights[..light];
+    match case.is_given {
+        true => before.iter().any(|other| kind(other) == kind(&scene.lights[light])),
+        false => !before.is_empty(),
+    }
 }
 
 /// One of `one_in` of the rows, and all with default settings; of `technique` alone, if there is one.

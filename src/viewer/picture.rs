@@ -65,7 +65,7 @@ pub fn draw(show: &mut impl Show, renderer: &mut Renderer) -> Result<DrawnFrame,
         let picture = if is_alpha { frame.picture.clone().alpha_as_gray() } else { frame.picture.clone() };
         let mut view = frame.views.first().map(|pixels| to_canvas(pixels, plan.views.first().map(|row| row.0.view)));
         if let Some(traced) = traced {
-            let pixels = traced.picture(&scene, &frame.picture, frame.views.first(), false)?;
+            let pixels = show.trace(traced, &scene, &frame.picture, frame.views.first())?;
             view = Some(to_canvas(&pixels, None));
             sheets.push(in_corner(legend(&traced.legend(&scene), show.size()[0]), show.size(), &sheets));
         }

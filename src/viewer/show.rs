@@ -6,8 +6,9 @@ use glam::DVec2;
 
 use super::Error;
 use super::sheet::{EDGE, Sheet, help_pages};
+use crate::device::Pixels;
 use crate::frame::Renderer;
-use crate::judge::truth_pictures::TruthView;
+use crate::judge::truth_pictures::{self, TruthView};
 use crate::lights::LeftOut;
 use crate::plan::Request;
 use crate::scene::Scene;
@@ -82,6 +83,22 @@ pub trait Show {
     /// The ray tracer's picture that is shown in place of the scene's.
     fn traced(&self) -> Option<TruthView> {
         None
+    }
+
+    /// The ray tracer's picture of the scene as it was drawn; `picture` and `drawn` as [`TruthView::picture`] has them. A
+    /// content that changes little may keep the rays.
+    ///
+    /// # Errors
+    ///
+    /// As [`TruthView::picture`].
+    fn trace(
+        &mut self,
+        view: TruthView,
+        scene: &Scene,
+        picture: &Pixels,
+        drawn: Option<&Pixels>,
+    ) -> Result<Pixels, truth_pictures::Error> {
+        view.picture(scene, picture, drawn, false)
     }
 
     /// Tests whether a view stands to the right of the picture, not in its place.

@@ -15,6 +15,7 @@ mod floor_maps;
 mod floor_passes;
 mod judge;
 mod kinds;
+mod model_files;
 mod numbers;
 mod pairs;
 mod pictures;

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use std::process::{Command, Stdio};
 
 use super::child::median;
+use super::model_files::Format;
 use super::scale_child::ScaleSample;
 use super::scale_scene::Point;
 use super::{Arguments, Result, Who, pictures, scale_plot};
@@ -20,12 +21,25 @@ struct Ladder {
     point: fn(usize) -> Point,
 }
 
+/// Ladders of files in other formats than OBJ.
+const FILES: Ladder = Ladder {
+    name: "",
+    unit: "triangles of one file (floor: an OBJ file)",
+    sizes: &[100_000, 300_000, 1_000_000, 3_000_000, 10_000_000],
+    quick: &[3_000, 10_000, 30_000, 100_000],
+    point: |size| of_file(size, Format::Obj),
+};
+
+fn of_file(triangles: usize, format: Format) -> Point {
+    Point { triangles, objects: 1, format, ..Point::default() }
+}
+
 /// From 256 volumes on planning looks for counts that eight bits cannot hold: their exponents are those above that step.
-const LADDERS: [Ladder; 7] = [
+const LADDERS: [Ladder; 11] = [
     Ladder {
         name: "triangles",
         unit: "triangles of one object",
-        sizes: &[10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000],
+        sizes: &[10_000, 30_000, 100_000, 300_000, 1_000_000, 3_000_000, 10_000_000],
         quick: &[3_000, 10_000, 30_000, 100_000],
         point: |size| Point { triangles: size, objects: 1, ..Point::default() },
     },
@@ -35,6 +49,16 @@ const LADDERS: [Ladder; 7] = [
         sizes: &[100, 300, 1_000, 3_000, 10_000, 30_000, 100_000],
         quick: &[30, 100, 300, 1_000],
         point: |size| Point { objects: size, triangles: 48, ..Point::default() },
+    },
+    Ladder { point: |size| of_file(size, Format::Glb), name: "glTF triangles", ..FILES },
+    Ladder { point: |size| of_file(size, Format::Ply), name: "PLY triangles", ..FILES },
+    Ladder { point: |size| of_file(size, Format::Stl), name: "STL triangles", ..FILES },
+    Ladder {
+        name: "nodes",
+        unit: "nodes of a glTF file",
+        sizes: &[1_000, 3_000, 10_000, 30_000, 100_000],
+        quick: &[100, 300, 1_000],
+        point: |size| Point { objects: size, triangles: 48, format: Format::Nodes, ..Point::default() },
     },
     Ladder {
         name: "lights",

@@ -9,6 +9,7 @@ use serde::{Deserialize, Serialize};
 
 use super::Result;
 use super::ball::ball;
+use super::model_files::Format;
 use super::numbers::Numbers;
 
 /// Numbers of a scene.
@@ -26,11 +27,14 @@ pub struct Point {
     pub nested: bool,
     /// True if glumbra counts shadow volumes. The floor draws its map all the same.
     pub volumes: bool,
+    /// Format of glumbra's model. The floor's is an OBJ file.
+    pub format: Format,
 }
 
 impl Default for Point {
     fn default() -> Self {
-        Self { triangles: 500, objects: 100, lights: 1, map: 1024, picture: 512, nested: false, volumes: false }
+        let (nested, volumes, format) = (false, false, Format::Obj);
+        Self { triangles: 500, objects: 100, lights: 1, map: 1024, picture: 512, nested, volumes, format }
     }
 }
 
@@ -93,6 +97,10 @@ impl Point {
     pub fn write(&self, folder: &Path) -> Result<()> {
         std::fs::write(folder.join(POINT), serde_json::to_string(self)?)?;
         std::fs::write(folder.join(MODEL), ball(self.triangles, self.radius()))?;
+        if self.format != Format::Obj {
+            let (mesh, _) = glumbra::geometry::load_obj(&folder.join(MODEL))?;
+            self.format.write(&mesh, &self.places().collect::<Vec<_>>(), folder)?;
+        }
         let mut lines = String::new();
         for place in self.places() {
             let _ = writeln!(lines, "{}", serde_json::to_string(&Place { translate: place.to_array() })?);
@@ -130,10 +138,20 @@ impl Point {
                 light_near_far[1]
             );
         }
+        let places = match self.format {
+            Format::Nodes => String::new(),
+            _ => format!("instances = \"{PLACES}\""),
+        };
+        // The material of files that have none; glTF's is another.
+        let gray = match self.format {
+            Format::Glb | Format::Nodes => "material = { ambient = [0.8, 0.8, 0.8], diffuse = [0.8, 0.8, 0.8] }",
+            _ => "",
+        };
         let _ = writeln!(
             text,
             "[[object]]\nmesh = \"quad\"\nscale = [{floor_half:?}, 1.0, {floor_half:?}]\n\
-             material = {{ diffuse = [0.7, 0.7, 0.7] }}\n[[object]]\nmesh = \"{MODEL}\"\ninstances = \"{PLACES}\""
+             material = {{ diffuse = [0.7, 0.7, 0.7] }}\n[[object]]\nmesh = \"{}\"\n{gray}\n{places}",
+            self.format.name()
         );
         text
     }

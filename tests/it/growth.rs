@@ -18,6 +18,9 @@ use glumbra::techniques;
 mod ball;
 
 use ball::ball;
+use serde_json::json;
+
+use crate::gltf::glb::{Glb, wedge};
 
 /// Greatest exponent of a curve: linear, and a tenth for what a fit over a few points of a curve with a constant part, a sort or
 /// a grid's rounded sides may add. Four times the size with an exponent of 2 is sixteen times the work: no noise hides it.
@@ -67,6 +70,8 @@ struct Ladder {
 const LADDERS: &[Ladder] = &[
     Ladder { name: "objects", sizes: &[512, 1024, 2048], text: objects, drawn: false },
     Ladder { name: "objects drawn", sizes: &[16, 64, 240], text: objects, drawn: true },
+    Ladder { name: "objects of a file's nodes", sizes: &[512, 1024, 2048], text: nodes, drawn: false },
+    Ladder { name: "objects of a file's nodes drawn", sizes: &[16, 64, 240], text: nodes, drawn: true },
     Ladder { name: "materials", sizes: &[16, 64, 240], text: materials, drawn: true },
     Ladder { name: "textures", sizes: &[16, 64, 240], text: textures, drawn: true },
     Ladder { name: "objects hidden beyond far", sizes: &[512, 1024, 2048], text: hidden, drawn: false },
@@ -121,6 +126,22 @@ fn objects(count: usize, technique: &str) -> String {
         let _ = writeln!(text, "{{ translate = [{x:?}, 2, {z:?}], scale = {scale:?} }},");
     }
     text + "]\n"
+}
+
+/// Wedges that the nodes of a glTF file place, each below another node; the file is in the scene's folder: see [`load`].
+fn nodes(_: usize, technique: &str) -> String {
+    start(48, 1, technique, &map_keys(technique, 64)) + "[[object]]\nmesh = \"nodes.glb\"\n"
+}
+
+/// The file of [`nodes`]: a wedge of one mesh at each place.
+fn nodes_file(count: usize) -> Vec<u8> {
+    let mut glb = Glb::new();
+    let mesh = wedge(&mut glb, None);
+    for (x, z, scale) in places(count) {
+        let child = glb.push("nodes", json!({ "mesh": mesh, "scale": [scale, scale, scale] }));
+        glb.root(json!({ "children": [child], "translation": [x, 2.0, z] }));
+    }
+    glb.bytes()
 }
 
 fn materials(count: usize, technique: &str) -> String {
@@ -197,6 +218,9 @@ fn load(text: &str, size: usize) -> Scene {
     }
     if text.contains(".png") {
         (0..size).for_each(|k| image::RgbImage::new(1, 1).save(folder.path().join(format!("{k}.png"))).unwrap());
+    }
+    if text.contains("nodes.glb") {
+        std::fs::write(folder.path().join("nodes.glb"), nodes_file(size)).unwrap();
     }
     glumbra::load(&path, &[]).unwrap().scene
 }

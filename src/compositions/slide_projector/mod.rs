@@ -125,7 +125,8 @@ impl Passes<'_> {
     /// Pass 3. SEG's has no depth test; without one a hidden surface's colour would be multiplied in, too.
     fn own_colors(&mut self, target: Target, lens: &CameraProjection, once: Once) -> Result<(), Error> {
         let white = |item: &crate::lights::Drawable| {
-            item.material.diffuse == [1.0; 3] && item.decal().is_none() && item.photo.is_none()
+            let is_plain = item.decal().is_none() && item.photo.is_none() && item.mesh.colors.is_none();
+            item.material.diffuse == [1.0; 3] && is_plain
         };
         if !self.keep_all && CameraView::new(self.scene, self.items).visible.iter().all(|item| white(item)) {
             self.notes.left_out("pass \"surfaces' colours\"", "all surfaces in view are white");

@@ -76,16 +76,21 @@ impl Passes<'_> {
     /// The second pass. Without highlights its alpha is not read.
     fn decals(&mut self, target: Target, lens: &CameraProjection, once: Once, shines: bool) -> Result<(), Error> {
         // Their alpha is 1 since the first pass.
-        let is_white = |item: &Drawable| item.decal().is_none() && (!shines || item.gloss().is_none());
+        let is_white = |item: &Drawable| {
+            item.decal().is_none() && item.mesh.colors.is_none() && (!shines || item.gloss().is_none())
+        };
         if !self.keep_all && CameraView::new(self.scene, self.items).visible.iter().all(|item| is_white(item)) {
-            self.notes.left_out("pass \"decals and gloss\"", "no surface in view has a decal or a gloss map");
+            self.notes.left_out(
+                "pass \"decals and gloss\"",
+                "no surface in view has a decal, a gloss map or colours of vertices",
+            );
             return Ok(());
         }
         let (stencil, blend) = (once.stencil(), Some(Blend::MultiplyAndStoreAlpha));
         let state = DrawState { stencil, blend, ..DrawState::REPEAT };
         let first = self.first("decals and gloss", target, lens, [0.0; 4]);
         let onto = Onto { state: lens.of_surfaces(state), clear: once.clear(), ..first };
-        let why = "no decal and no gloss map";
+        let why = "no decal, no gloss map and no colours of vertices";
         let items = Once::items(self, lens, (onto.label, why), is_white);
         let ending = Ending::Part(FormulaPart::Decal(glsl!("three_pass/decal.frag")));
         self.surfaces_of(&items, Redraw::Always, &onto, &[], &ending)

@@ -96,6 +96,7 @@ impl File {
             let what = format!("has {count} elements, which go beyond the {length} bytes of its view");
             return Err(self.error(own, what));
         };
+        self.reading.advance((elements.count * size) as u64);
         let used = &bytes[elements.offset as usize..end];
         Ok(used.chunks(stride).map(|element| elements.vector(&element[..size])).collect())
     }

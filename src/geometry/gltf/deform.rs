@@ -41,7 +41,14 @@ impl File {
     /// # Errors
     ///
     /// A joint that is no node of the scene; too few inverse bind matrices.
-    pub fn joints(&self, node: usize, placed: &[Placed]) -> Result<Option<Vec<DMat4>>, Error> {
+    ///
+    /// `places`: the place in `placed` of each node of the file.
+    pub fn joints(
+        &self,
+        node: usize,
+        placed: &[Placed],
+        places: &[Option<usize>],
+    ) -> Result<Option<Vec<DMat4>>, Error> {
         let Some(index) = self.root.nodes[node].skin else { return Ok(None) };
         let skin = self.get(index, &format!("nodes[{node}].skin"), "skins")?;
         let place = format!("skins[{}]", index.value());
@@ -54,7 +61,7 @@ impl File {
             return Err(self.error(place, what));
         }
         let joint = |(at, (joint, bind)): (usize, (&Index<gltf::json::Node>, &[f64; 16]))| {
-            let found = placed.iter().find(|other| other.node == joint.value());
+            let found = places.get(joint.value()).copied().flatten().map(|place| &placed[place]);
             let what = || format!("is node {}, which the scene does not have", joint.value());
             let found = found.ok_or_else(|| self.error(format!("{place}.joints[{at}]"), what()))?;
             Ok(found.world_from_node * DMat4::from_cols_array(bind))

@@ -8,6 +8,7 @@ use base64::engine::general_purpose::{GeneralPurpose, GeneralPurposeConfig};
 use gltf::json::{Index, Root, root::Get};
 
 use super::super::{Error, text};
+use crate::process::{self, Reading};
 
 /// A file with its buffers in memory.
 #[derive(Debug)]
@@ -16,6 +17,9 @@ pub(super) struct File {
     pub root: Root,
     /// One for each buffer of the file, of at least the length that it states.
     pub buffers: Vec<Vec<u8>>,
+    /// Bytes of the buffers that are read as numbers, and once more when their meshes are made: skins and animations read
+    /// some again.
+    pub reading: Reading,
 }
 
 /// An error at a place of the file's JSON, such as `meshes[0].primitives[1]`.
@@ -46,7 +50,9 @@ impl File {
             what: format!("is no glTF: {error}"),
         };
         let root: Root = gltf::json::deserialize::from_slice(json).map_err(malformed)?;
-        let mut file = Self { path: path.to_owned(), root, buffers: Vec::new() };
+        let total = root.buffers.iter().map(|buffer| buffer.byte_length.0).fold(0, u64::saturating_add);
+        let reading = process::reading(text::name(path), total.saturating_mul(2));
+        let mut file = Self { path: path.to_owned(), root, buffers: Vec::new(), reading };
         for index in 0..file.root.buffers.len() {
             let buffer = file.read_buffer(index, binary)?;
             file.buffers.push(buffer);

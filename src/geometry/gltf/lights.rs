@@ -1,6 +1,7 @@
 //! Cameras and lights of a glTF, placed in the world [Khronos, "glTF 2.0 Specification", 3.10; Khronos,
 //! "KHR_lights_punctual"].
 
+use std::collections::{HashMap, HashSet};
 use std::f64::consts::PI;
 
 use glam::{DMat4, DVec3};
@@ -43,12 +44,11 @@ impl Axes {
 impl File {
     /// The cameras of the placed nodes.
     pub fn cameras(&self, placed: &[Placed], odd: &mut WarningTally) -> Result<Vec<PlacedCamera>, Error> {
-        let mut found: Vec<PlacedCamera> = Vec::new();
+        let (mut found, mut names) = (Vec::new(), Names::default());
         for node in placed {
             let Some(index) = self.root.nodes[node.node].camera else { continue };
             if let Some(camera) = self.camera(index, node, odd)? {
-                let taken = found.iter().map(|other| other.name.as_str());
-                let name = unique(camera.name.clone(), taken);
+                let name = names.unique(camera.name.clone());
                 found.push(PlacedCamera { name, ..camera });
             }
         }
@@ -95,7 +95,7 @@ impl File {
 
     /// The lights of the placed nodes.
     pub fn lights(&self, placed: &[Placed], odd: &mut WarningTally) -> Result<Vec<PlacedLight>, Error> {
-        let mut found: Vec<PlacedLight> = Vec::new();
+        let (mut found, mut names) = (Vec::new(), Names::default());
         for node in placed {
             let extensions = self.root.nodes[node.node].extensions.as_ref();
             let Some(named) = extensions.and_then(|extensions| extensions.khr_lights_punctual.as_ref()) else {
@@ -108,8 +108,7 @@ impl File {
             let shape = self.light_shape(light, &axes, &place, odd)?;
             let color = self.light_color(light, &place, odd)?;
             let name = self.name_at(node.node, light.name.as_deref(), "light", named.light.value());
-            let name = unique(name, found.iter().map(|other| other.name.as_str()));
-            found.push(PlacedLight { name, color, shape });
+            found.push(PlacedLight { name: names.unique(name), color, shape });
         }
         Ok(found)
     }
@@ -170,11 +169,27 @@ impl File {
     }
 }
 
-/// The name, with a number behind it if it is taken.
-fn unique<'a>(name: String, taken: impl Iterator<Item = &'a str> + Clone) -> String {
-    let is_free = |name: &str| taken.clone().all(|other| other != name);
-    if is_free(&name) {
-        return name;
+/// Names that are taken.
+#[derive(Default)]
+struct Names {
+    taken: HashSet<String>,
+    /// Next number behind a name that is taken.
+    next: HashMap<String, usize>,
+}
+
+impl Names {
+    /// The name, with a number behind it if it is taken.
+    fn unique(&mut self, name: String) -> String {
+        if self.taken.insert(name.clone()) {
+            return name;
+        }
+        let next = self.next.entry(name.clone()).or_insert(2);
+        loop {
+            let numbered = format!("{name} {next}");
+            *next += 1;
+            if self.taken.insert(numbered.clone()) {
+                return numbered;
+            }
+        }
     }
-    (2..).map(|number| format!("{name} {number}")).find(|name| is_free(name)).unwrap_or(name)
 }

@@ -45,8 +45,10 @@ pub(super) fn load(path: &Path, moment: Option<&Moment>) -> Result<(ModelWorld, 
     let surfaces = (0..file.root.materials.len()).map(|at| Surface::read(at, &file, &mut pictures, &mut odd));
     let surfaces = surfaces.collect::<Result<Vec<_>, _>>()?;
     let shared = vec![None; file.root.meshes.len()];
-    let mut meshes = Meshes { file: &file, surfaces, motion, shared, odd };
-    let mut world = ModelWorld { cameras, lights, ..ModelWorld::default() };
+    let mut places = vec![None; file.root.nodes.len()];
+    placed.iter().enumerate().for_each(|(place, placed)| places[placed.node] = Some(place));
+    let mut meshes = Meshes { file: &file, surfaces, motion, shared, places, odd };
+    let mut world = ModelWorld { cameras, lights, seconds: file.seconds(), ..ModelWorld::default() };
     for node in &placed {
         meshes.place(node, &placed, &mut world)?;
     }
@@ -66,6 +68,8 @@ struct Meshes<'a> {
     motion: Motion,
     /// Meshes that were read, as the file has them.
     shared: Vec<Option<Arc<Mesh>>>,
+    /// Place of each node of the file in the list of those of its scene.
+    places: Vec<Option<usize>>,
     odd: WarningTally,
 }
 
@@ -74,7 +78,8 @@ impl Meshes<'_> {
     fn place(&mut self, node: &Placed, placed: &[Placed], world: &mut ModelWorld) -> Result<(), Error> {
         let file = self.file;
         let name = file.node_name(node.node);
-        world.nodes.push((name.clone(), node.node));
+        let place = world.nodes.len();
+        world.nodes.push((name.clone(), place..node.end));
         let Some(index) = file.root.nodes[node.node].mesh else { return Ok(()) };
         let source = file.get(index, &format!("nodes[{}].mesh", node.node), "meshes")?;
         let deform = self.deform(node, source, placed)?;
@@ -92,7 +97,7 @@ impl Meshes<'_> {
             self.odd.note("flattened", &file.path, 0, what);
             return Ok(());
         }
-        world.meshes.push(PlacedMesh { name, mesh, world_from_model, line: node.line.clone() });
+        world.meshes.push(PlacedMesh { name, mesh, world_from_model, place });
         Ok(())
     }
 
@@ -102,7 +107,7 @@ impl Meshes<'_> {
         let moved = self.motion.get(&node.node).and_then(|motion| motion.weights.clone());
         let still = || written().map(|weights| weights.iter().map(|weight| f64::from(*weight)).collect());
         let weights = moved.or_else(still).unwrap_or_default();
-        Ok(Deform { weights, joints: self.file.joints(node.node, placed)? })
+        Ok(Deform { weights, joints: self.file.joints(node.node, placed, &self.places)? })
     }
 
     /// The mesh, and whether it was read for the first time.

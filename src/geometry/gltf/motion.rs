@@ -44,6 +44,14 @@ impl File {
         Ok(motion)
     }
 
+    /// The time of the last key of the first animation; 0: there is none. Keys that are wrong are left out: [`File::motion`] says
+    /// so of those that are used.
+    pub fn seconds(&self) -> f64 {
+        let samplers = self.root.animations.first().into_iter().flat_map(|animation| &animation.samplers);
+        let times = samplers.filter_map(|sampler| self.vectors::<1>(sampler.input, "animations[0]", FLOATS).ok());
+        times.flatten().fold(0.0, |last, [time]| f64::max(last, time))
+    }
+
     fn animation(&self, moment: &Moment) -> Result<(usize, &Animation), Error> {
         let mut all = self.root.animations.iter().enumerate();
         let Some(wanted) = &moment.animation else {

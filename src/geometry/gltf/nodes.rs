@@ -13,8 +13,10 @@ pub(super) struct Placed {
     /// The node's number in the file.
     pub node: usize,
     pub world_from_node: DMat4,
-    /// Numbers of the node and of those above it, the node itself first.
-    pub line: Vec<usize>,
+    /// Number of nodes above it.
+    depth: usize,
+    /// Place in the list of the first node behind this one that is not below it.
+    pub end: usize,
 }
 
 impl File {
@@ -28,7 +30,7 @@ impl File {
         let mut open: Vec<Placed> = Vec::new();
         for (root, place) in self.roots()? {
             self.get(root, &place, "nodes")?;
-            open.push(Placed { node: root.value(), world_from_node: DMat4::IDENTITY, line: Vec::new() });
+            open.push(Placed { node: root.value(), world_from_node: DMat4::IDENTITY, depth: 0, end: 0 });
         }
         open.reverse();
         let mut done = Vec::new();
@@ -39,13 +41,13 @@ impl File {
             }
             let node = &self.root.nodes[next.node];
             next.world_from_node *= self.local(node, motion.get(&next.node), &place)?;
-            next.line.insert(0, next.node);
             for child in node.children.iter().flatten().rev() {
                 self.get(*child, &format!("{place}.children"), "nodes")?;
-                open.push(Placed { node: child.value(), ..next.clone() });
+                open.push(Placed { node: child.value(), depth: next.depth + 1, ..next.clone() });
             }
             done.push(next);
         }
+        set_ends(&mut done);
         Ok(done)
     }
 
@@ -100,5 +102,17 @@ impl File {
     pub fn node_name(&self, node: usize) -> String {
         let name = self.root.nodes.get(node).and_then(|node| node.name.clone());
         name.filter(|name| !name.is_empty()).unwrap_or_else(|| format!("node {node}"))
+    }
+}
+
+/// Sets where each node's descendants end, in one walk over the list.
+fn set_ends(placed: &mut [Placed]) {
+    let mut open: Vec<usize> = Vec::new();
+    for at in 0..=placed.len() {
+        let depth = placed.get(at).map_or(0, |next| next.depth);
+        while let Some(last) = open.pop_if(|last| placed[*last].depth >= depth) {
+            placed[last].end = at;
+        }
+        open.push(at);
     }
 }

@@ -8,7 +8,7 @@ use gltf::json::{Accessor, Index};
 
 use super::super::tally::WarningTally;
 use super::super::tangents::BasisFit;
-use super::super::{CREASE_DEGREES, Error, Mesh, MeshTangents, Part, normals};
+use super::super::{CREASE_DEGREES, Error, Mesh, MeshTangents, Part, far, normals};
 use super::accessor::NUMBERS;
 use super::deform::{Deform, Vertices};
 use super::file::File;
@@ -38,7 +38,10 @@ pub(super) fn read(
         };
         let reader = Reader { file, primitive, place, deform, odd };
         if let Some(part) = reader.read(surface)? {
+            let bytes =
+                size_of_val(&part.positions[..]) + size_of_val(&part.normals[..]) + size_of_val(&part.indices[..]);
             append(&mut joined, part, &name, file)?;
+            file.reading.advance(bytes as u64);
         }
     }
     joined.update_bounds();
@@ -105,7 +108,7 @@ impl Reader<'_> {
         let (normals, tangents) = (normals.unwrap_or_default(), tangents.unwrap_or_default());
         let mut vertices = Vertices { positions, normals, tangents };
         self.file.deform(&mut vertices, self.primitive, &self.place, self.deform)?;
-        mesh.positions = singles(&vertices.positions);
+        (mesh.positions, mesh.origin) = far::relative(&vertices.positions);
         if has_normals {
             mesh.normals = singles(&vertices.normals);
         } else {
@@ -254,7 +257,13 @@ fn append(joined: &mut Mesh, part: Mesh, name: &str, file: &File) -> Result<(), 
     let ((t, b), (more_t, more_b)) = (pair(joined.tangents.take()), pair(part.tangents));
     let (t, b) = (filled(t, before, more_t, added, 0.0), filled(b, before, more_b, added, 0.0));
     joined.tangents = t.zip(b).map(|(tangents, bitangents)| MeshTangents { tangents, bitangents });
-    joined.positions.extend(part.positions);
+    if joined.positions.is_empty() {
+        joined.origin = part.origin;
+    }
+    // Of primitives in two places, the second has as many bits as its distance from the first one leaves.
+    let shift = part.origin - joined.origin;
+    let place = |position: [f32; 3]| (DVec3::from_array(position.map(f64::from)) + shift).as_vec3().to_array();
+    joined.positions.extend(part.positions.into_iter().map(place));
     joined.normals.extend(part.normals);
     joined.indices.extend(part.indices.iter().map(|index| index + first));
     let material = match (joined.materials.last(), part.materials.into_iter().next()) {

@@ -11,10 +11,10 @@ pub(super) mod scan;
 
 use std::cell::Cell;
 use std::collections::HashSet;
-use std::io::{self, BufRead, Read};
 use std::path::Path;
 
 use super::mtl::{self, Library};
+use super::text::CountedBytes;
 use super::{Error, Mesh, Part, Warning, normals, text};
 use crate::math::Aabb;
 use crate::process::{self, Reading};
@@ -104,7 +104,7 @@ fn parse(text: &str, scan: &Scan, library: &Library, reading: &Reading) -> Resul
     let options =
         tobj::LoadOptions { single_index: true, ignore_points: true, ignore_lines: true, ..Default::default() };
     let rewritten = scan.needs_rewrite.then(|| rewrite::rewrite(text, scan));
-    let mut reader = Counted { rest: rewritten.as_deref().unwrap_or(text).as_bytes(), reading };
+    let mut reader = CountedBytes { inner: rewritten.as_deref().unwrap_or(text).as_bytes(), reading };
     // tobj gets all libraries as one, at its first `mtllib`.
     let asked = Cell::new(false);
     let materials = |_: &Path| match asked.replace(true) {
@@ -112,31 +112,6 @@ fn parse(text: &str, scan: &Scan, library: &Library, reading: &Reading) -> Resul
         true => tobj::load_mtl_buf(&mut &b""[..]),
     };
     tobj::load_obj_buf(&mut reader, &options, materials).map(|(models, _)| models)
-}
-
-/// Text whose bytes are counted as they are read.
-struct Counted<'a> {
-    rest: &'a [u8],
-    reading: &'a Reading,
-}
-
-impl Read for Counted<'_> {
-    fn read(&mut self, buffer: &mut [u8]) -> io::Result<usize> {
-        let count = self.rest.read(buffer)?;
-        self.reading.advance(count as u64);
-        Ok(count)
-    }
-}
-
-impl BufRead for Counted<'_> {
-    fn fill_buf(&mut self) -> io::Result<&[u8]> {
-        Ok(self.rest)
-    }
-
-    fn consume(&mut self, amount: usize) {
-        self.rest.consume(amount);
-        self.reading.advance(amount as u64);
-    }
 }
 
 /// One mesh of all models, each a part, whose normals may be missing or wrong; and the number of polygons that are too large to

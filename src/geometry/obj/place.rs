@@ -4,12 +4,9 @@
 use glam::DVec3;
 
 use super::corner::{Counts, read_corner};
+use crate::geometry::far;
 use crate::geometry::text::logical_lines;
 use crate::math::Aabb;
-
-/// Ratio of the vertices' distance to their extent from which an origin is used: it saves three bits. Other files are read
-/// as they are.
-const FAR: f64 = 8.0;
 
 /// Error of an edge, as a share of the face's longest, above which the face has lost its shape.
 const MOST_OFF: f64 = 1.0 / 16.0;
@@ -58,14 +55,7 @@ impl Places {
 
     /// Origin of the mesh's positions; zero where another saves nothing.
     pub fn origin(&self) -> DVec3 {
-        let away = self.bounds.min.abs().max(self.bounds.max.abs()).max_element();
-        let size = (self.bounds.max - self.bounds.min).max_element();
-        if self.bounds.is_empty() || away < FAR * size || away == 0.0 {
-            return DVec3::ZERO;
-        }
-        // A power of two not below the size: what is taken off is short, and the rest exact.
-        let step = size.max(away * f64::EPSILON).log2().ceil().exp2();
-        (self.bounds.center() / step).round() * step
+        far::origin_of(&self.bounds)
     }
 
     /// The position of vertex `index`, from 0, relative to `origin`.

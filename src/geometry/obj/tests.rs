@@ -172,8 +172,12 @@ fn what_no_picture_shows_is_warned_of_once() {
     let expected = [
         (2, "map_Kd -bm is left out"),
         (2, "map_Kd -imfchan is left out"),
-        (3, "map_Bump is left out: surfaces are lit by their meshes' normals"),
-        (4, "norm is left out: surfaces are lit by their meshes' normals"),
+        (
+            3,
+            "map_Bump is left out: MTL has no unit of height, not in -bm either; name the picture in the scene, with its \
+             height in texels: material = { bump = { height = \"FILE\", scale = 4.0 } }",
+        ),
+        (4, "norm is left out: name it in the scene: material = { bump = { normal_map = \"FILE\" } }"),
         (5, "Pr is left out, as all of physically based materials: Ka, Kd, Ks and Ns are drawn (3 times)"),
         (12, "'Kdd' is no statement of MTL; it is left out"),
     ];

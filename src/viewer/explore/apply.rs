@@ -7,8 +7,9 @@ use glam::DVec2;
 use super::keys::{self, ExploreCommand, explore_help};
 use super::shown::Paged;
 use super::{Explorer, save, sources};
+use crate::device::Pixels;
 use crate::frame::Renderer;
-use crate::judge::truth_pictures::TruthView;
+use crate::judge::truth_pictures::{self, TruthView};
 use crate::plan::Request;
 use crate::scene::{self, Entry, Origin, Scene, Value};
 use crate::techniques;
@@ -139,6 +140,7 @@ impl Explorer {
         if scene.image.size != self.base.image.size {
             self.size = scene.image.size;
         }
+        self.changes += 1;
         self.light = self.light.min(scene.lights.len().saturating_sub(1));
         self.base = scene;
         self.scene = next;
@@ -244,6 +246,19 @@ impl Show for Explorer {
         self.looks.now().and_then(|look| look.traced(self.light))
     }
 
+    fn trace(
+        &mut self,
+        view: TruthView,
+        scene: &Scene,
+        picture: &Pixels,
+        drawn: Option<&Pixels>,
+    ) -> Result<Pixels, truth_pictures::Error> {
+        // Keys and mouse change nothing else of a scene.
+        let lights: Vec<Kept> = scene.lights.iter().map(Kept::of).collect();
+        let state = format!("{} {:?} {:?} {lights:?}", self.changes, scene.image.size, scene.camera);
+        self.truth.picture(view, &state, scene, picture, drawn)
+    }
+
     fn is_beside(&self) -> bool {
         self.looks.is_beside
     }
@@ -272,6 +287,7 @@ impl Show for Explorer {
         }
         let can_go_back = !self.has_gone_back;
         self.scene = self.good.0.clone();
+        self.changes += 1;
         self.looks.pass = None;
         self.has_gone_back = true;
         can_go_back

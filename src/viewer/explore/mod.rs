@@ -20,6 +20,7 @@ pub use script::{Step, parse_steps};
 pub use sources::Sources;
 
 use super::show::Facts;
+use crate::judge::truth_pictures::TruthMemory;
 use crate::scene::{self, Camera, Scene};
 use shown::Looks;
 
@@ -55,6 +56,10 @@ pub struct Explorer {
     /// Error in the scene's files, until they are read without.
     file_error: Option<String>,
     folder: PathBuf,
+    /// The rays traced last.
+    truth: TruthMemory,
+    /// Changes of the scene by other than keys and mouse: of its files, and of going back.
+    changes: u64,
 }
 
 impl Explorer {
@@ -85,6 +90,8 @@ impl Explorer {
             error: None,
             file_error: None,
             folder,
+            truth: TruthMemory::default(),
+            changes: 0,
         })
     }
 
@@ -96,6 +103,11 @@ impl Explorer {
     /// The camera through which the scene is seen.
     pub fn camera(&self) -> &Camera {
         &self.scene.camera
+    }
+
+    /// Number of times that rays were traced for a picture of the truth.
+    pub fn traces(&self) -> u64 {
+        self.truth.traces()
     }
 
     /// The error that is shown, if there is one.

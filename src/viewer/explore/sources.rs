@@ -19,10 +19,12 @@ const BESIDE: [&str; 2] = ["mtl", "bin"];
 /// Time of change and length; `None`: the file is not there.
 type Stamp = Option<(SystemTime, u64)>;
 
-/// A scene's file, the changes by the command line, and the files that are read.
+/// A scene's file or text, the changes by the command line, and the files that are read.
 #[derive(Clone, Debug)]
 pub struct Sources {
     path: PathBuf,
+    /// Text that was read once: its files are not watched, and are relative to the current folder. `None`: there is a file.
+    text: Option<String>,
     overrides: Vec<String>,
     stamps: BTreeMap<PathBuf, Stamp>,
 }
@@ -34,11 +36,29 @@ impl Sources {
     ///
     /// As [`crate::load`].
     pub fn load(path: &Path, overrides: Vec<String>) -> Result<(Self, Loaded), scene::Error> {
-        let mut sources = Self { path: path.to_owned(), overrides, stamps: BTreeMap::new() };
+        let mut sources = Self { path: path.to_owned(), text: None, overrides, stamps: BTreeMap::new() };
         sources.stamps = stamps([path.to_owned()].into_iter().collect());
-        let loaded = techniques::load(path, &sources.overrides)?;
+        let loaded = sources.loaded(&sources.overrides)?;
         sources.note(&loaded.scene);
         Ok((sources, loaded))
+    }
+
+    /// Loads a scene from the text of a scene file, called `name` where it is saved.
+    ///
+    /// # Errors
+    ///
+    /// As [`crate::load_str`].
+    pub fn of_text(name: &str, text: String, overrides: Vec<String>) -> Result<(Self, Loaded), scene::Error> {
+        let sources = Self { path: name.into(), text: Some(text), overrides, stamps: BTreeMap::new() };
+        let loaded = sources.loaded(&sources.overrides)?;
+        Ok((sources, loaded))
+    }
+
+    fn loaded(&self, overrides: &[String]) -> Result<Loaded, scene::Error> {
+        match &self.text {
+            None => techniques::load(&self.path, overrides),
+            Some(text) => techniques::load_str(text, Path::new(""), overrides),
+        }
     }
 
     pub fn path(&self) -> &Path {
@@ -48,7 +68,7 @@ impl Sources {
     /// The scene again, through the camera of a name.
     pub(super) fn reload(&mut self, camera: Option<&str>) -> Result<Loaded, scene::Error> {
         let before = stamps(self.stamps.keys().cloned().collect());
-        let loaded = techniques::load(&self.path, &self.overrides_with(camera));
+        let loaded = self.loaded(&self.overrides_with(camera));
         self.stamps = before;
         if let Ok(loaded) = &loaded {
             self.note(&loaded.scene);
@@ -70,7 +90,10 @@ impl Sources {
             return Ok(Vec::new());
         }
         let overrides: Vec<String> = self.overrides.iter().filter(|text| !text.starts_with(CHOICE)).cloned().collect();
-        let root = scene::settings(&self.path, &overrides)?;
+        let root = match &self.text {
+            None => scene::settings(&self.path, &overrides)?,
+            Some(text) => scene::settings_of_text(text, Path::new(""), &overrides)?,
+        };
         let Some(Entry { value: Value::Array(items), .. }) = root.get("camera") else { return Ok(Vec::new()) };
         let name = |item: &Entry| match &item.value {
             Value::Table(table) => match &table.get("name")?.value {
@@ -91,13 +114,16 @@ impl Sources {
 
     /// The camera of a name.
     pub(super) fn camera(&self, name: &str) -> Result<Camera, scene::Error> {
-        Ok(techniques::load(&self.path, &self.overrides_with(Some(name)))?.scene.camera)
+        Ok(self.loaded(&self.overrides_with(Some(name)))?.scene.camera)
     }
 
     /// The scene's table with absolute paths and every camera, through which to save it.
     pub(super) fn settings(&self) -> Result<Settings, scene::Error> {
         let overrides: Vec<String> = self.overrides.iter().filter(|text| !text.starts_with(CHOICE)).cloned().collect();
-        scene::portable_settings(&self.path, &overrides)
+        match &self.text {
+            None => scene::portable_settings(&self.path, &overrides),
+            Some(text) => scene::portable_settings_of_text(text, Path::new(""), &overrides),
+        }
     }
 
     fn overrides_with(&self, camera: Option<&str>) -> Vec<String> {
@@ -111,7 +137,7 @@ impl Sources {
     }
 
     fn is_toml(&self) -> bool {
-        ends_in(&self.path, "toml")
+        self.text.is_some() || ends_in(&self.path, "toml")
     }
 
     /// Notes the files that the scene was read from. A file that has changed since it was noted keeps its stamp.
@@ -122,6 +148,8 @@ impl Sources {
             if let Ok(root) = scene::portable_settings(&self.path, &self.overrides) {
                 walk(&root, &mut files);
             }
+            // One of them may have no key.
+            files.extend(scene::included_files(&self.path).unwrap_or_default());
         }
         files.extend(scene.textures().map(|texture| PathBuf::from(&texture.name)).filter(|path| path.is_file()));
         let models = files.iter().filter(|path| WITH_OTHERS.iter().any(|end| ends_in(path, end)));

@@ -1,8 +1,10 @@
 //! Looks of a file's meshes: the same scene as OBJ and MTL gives the same picture.
 
+use glam::DVec3;
+use glumbra::geometry::Mesh;
 use serde_json::{Value, json};
 
-use super::glb::{CORNERS, Glb, NORMALS, TRIANGLES, wedge, wedge_attributes, wedge_obj};
+use super::glb::{COORDINATES, CORNERS, Glb, NORMALS, TRIANGLES, wedge, wedge_attributes, wedge_obj};
 use super::{assert_same, scene};
 
 /// A PNG of four by two texels, each another colour, half of them transparent.
@@ -15,7 +17,7 @@ fn picture() -> Vec<u8> {
 }
 
 /// A wedge with a texture of [`picture`] in the file itself.
-fn textured(sampler: Value, material: impl FnOnce(usize) -> Value) -> Glb {
+pub fn textured(sampler: Value, material: impl FnOnce(usize) -> Value) -> Glb {
     let mut glb = Glb::new();
     let view = glb.view(&picture());
     let image = glb.push("images", json!({ "bufferView": view, "mimeType": "image/png" }));
@@ -86,6 +88,35 @@ fn a_texture_transform_moves_scales_and_turns() {
     compare(&textured(json!({}), moved), "map_Kd -s 2 0.5 -o 0.25 1 p.png");
 }
 
+/// A turn by a right angle, which MTL has not: (u, v) becomes (v, -u), halved and moved by (0, 1), with v downwards.
+#[test]
+fn a_texture_transform_turns() {
+    let turned = |texture: usize| {
+        let mut pbr = base(texture);
+        let transform = json!({ "offset": [0.0, 1.0], "rotation": std::f32::consts::FRAC_PI_2, "scale": [0.5, 0.5] });
+        pbr["baseColorTexture"]["extensions"] = json!({ "KHR_texture_transform": transform });
+        json!({ "pbrMetallicRoughness": pbr })
+    };
+    let folder = tempfile::tempdir().unwrap();
+    textured(json!({}), turned).write(folder.path(), "w.glb");
+    let loaded = scene(folder.path(), "a.toml", "[[object]]\nmesh = \"w.glb\"\n");
+    let found = loaded.scene.objects[1].mesh.texcoords.as_ref().unwrap();
+    for (found, [u, v]) in found.iter().zip(COORDINATES) {
+        // t = 1 - (1 - u / 2)
+        let expected = [0.5 * v, 0.5 * u];
+        assert!((0..2).all(|k| (found[k] - expected[k]).abs() < 1e-6), "{found:?}: {expected:?}");
+    }
+}
+
+/// Six times the volume that triangles enclose, above 0 where they are counter-clockwise from outside; seen from a point in
+/// none of their planes, so that each of them counts.
+fn volume(mesh: &Mesh, scale: f64) -> f64 {
+    let from = DVec3::new(0.3, -1.0, 0.2);
+    let corner = |index: &u32| scale * DVec3::from_array(mesh.positions[*index as usize].map(f64::from)) - from;
+    let of = |[a, b, c]: &[u32; 3]| corner(a).dot(corner(b).cross(corner(c)));
+    mesh.indices.as_chunks::<3>().0.iter().map(of).sum()
+}
+
 /// Primitives of one wedge: its triangles in strips and fans, its positions as normalised and as whole numbers, or as zeros
 /// that a sparse accessor replaces.
 #[test]
@@ -149,6 +180,10 @@ fn other_shapes_of_the_same_triangles_look_the_same() {
         let found = scene(folder.path(), "a.toml", &format!("[[object]]\nmesh = \"{name}.glb\"\n"));
         let expected = scene(folder.path(), "b.toml", &format!("[[object]]\nmesh = \"w.obj\"\n{material}"));
         assert_same(&found, &expected);
+        // A picture shows both sides alike: the turn of each triangle is seen here.
+        let [found, expected] =
+            [(found, scale), (expected, 1.0)].map(|(loaded, scale)| volume(&loaded.scene.objects[1].mesh, scale));
+        assert!((found - expected).abs() < 1e-6, "{name}: {found}, {expected}");
     }
 }
 

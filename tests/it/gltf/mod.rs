@@ -1,10 +1,12 @@
 //! glTF files, which the tests write themselves: what they place, what they look like, and what is refused.
 
-mod glb;
+mod far;
+pub mod glb;
 mod looks;
 mod malformed;
 mod motion;
 mod places;
+mod tints;
 
 use std::path::Path;
 

@@ -55,6 +55,8 @@ fn corners_are_where_the_nodes_put_them() {
 fn a_name_is_a_node_with_all_below_it_or_a_mesh_in_its_own_space() {
     let folder = tempfile::tempdir().unwrap();
     let mut glb = nested();
+    // A node behind them, which is not below.
+    glb.root(json!({ "name": "aside", "mesh": 0 }));
     glb.root(json!({ "name": "empty" }));
     glb.write(folder.path(), "n.glb");
     let places = |name: &str| {
@@ -214,4 +216,25 @@ fn a_node_without_a_turn_is_what_a_scene_file_places() {
     let objects = "[[object]]\nmesh = \"w.obj\"\ntranslate = [0.5, 0, 0.25]\nscale = [1.5, 1, 0.5]\n\
                    material = { diffuse = [1, 1, 1] }\n";
     assert_same(&found, &scene(folder.path(), "b.toml", objects));
+}
+
+/// A line of nodes, each below the one before it: as long as this, a list of those above each would fill gigabytes.
+#[test]
+fn a_long_line_of_nodes_is_placed_node_by_node() {
+    const COUNT: usize = 30_000;
+    let mut glb = Glb::new();
+    let mesh = wedge(&mut glb, None);
+    let node = |at: usize| match at + 1 {
+        COUNT => json!({ "name": "last", "mesh": mesh, "translation": [0.5, 0.0, 0.0] }),
+        next => json!({ "name": format!("n{at}"), "children": [next], "translation": [0.5, 0.0, 0.0] }),
+    };
+    glb.json["nodes"] = json!((0..COUNT).map(node).collect::<Vec<_>>());
+    glb.json["scenes"] = json!([{ "nodes": [0] }]);
+    let folder = tempfile::tempdir().unwrap();
+    glb.write(folder.path(), "line.glb");
+    for name in ["line.glb", "line.glb#n0", "line.glb#n17000", "line.glb#last"] {
+        let loaded = scene(folder.path(), "a.toml", &format!("[[object]]\nmesh = \"{name}\"\n"));
+        let [_, object] = &loaded.scene.objects[..] else { panic!("{name}: {}", loaded.scene.objects.len()) };
+        assert_eq!(object.world_from_model.w_axis.x, 0.5 * COUNT as f64, "{name}");
+    }
 }
