@@ -1,6 +1,7 @@
 //! Drivers that are broken on purpose: each fault turns a rule of `glumbra check` red, and everything of GL that the
 //! renderer uses has a fault, or a reason why none could be seen.
 
+mod reading;
 mod uses;
 
 #[path = "../../faults/judge.rs"]
