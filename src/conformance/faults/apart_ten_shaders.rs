@@ -40,12 +40,15 @@ fn with_operands<'a>(
 
 /// Reciprocals of nine bits.
 fn short_reciprocals(source: &Source) -> Option<String> {
-    if source.version < 330 || source.stage != Stage::Fragment {
+    if source.stage != Stage::Fragment {
         return None;
     }
     let of = |number: &str| format!("driver_reciprocal({number})");
     let text = with_operands(&source.text, "1.0 / ", |number, rest| Some((of(number), rest)));
-    let functions = "float driver_reciprocal(float x) { return uintBitsToFloat(floatBitsToUint(1.0 / x) & ~16383u); }
+    let functions = "float driver_reciprocal(float x) {
+    float exact = 1.0 / x, unit = exp2(floor(log2(max(abs(exact), 1e-30))) - 9.0);
+    return floor(exact / unit) * unit;
+}
 vec2 driver_reciprocal(vec2 v) { return vec2(driver_reciprocal(v.x), driver_reciprocal(v.y)); }
 vec3 driver_reciprocal(vec3 v) { return vec3(driver_reciprocal(v.xy), driver_reciprocal(v.z)); }";
     Some(Source { text: changed(source, text)?, ..*source }.with(functions))
