@@ -47,9 +47,12 @@ pub fn quickest() -> Vec<&'static Rule> {
     timed.into_iter().map(|(_, rule)| rule).collect()
 }
 
-/// Scenes that together use the whole product: a name, a file and what is set over it.
+/// A scene: a name, a file below data/ and what is set over it.
+pub type SceneRow = (&'static str, &'static str, &'static [&'static str]);
+
+/// Scenes that together use the whole product.
 #[rustfmt::skip]
-const SCENES: &[(&str, &str, &[&str])] = &[
+pub const SCENES: &[SceneRow] = &[
     ("map", "cases/scenes/box", &[]),
     ("map with a filter", "cases/scenes/box", &["light.shadow.filter=linear", "light.shadow.format=depth24"]),
     ("map of 16 bits, copied", "cases/scenes/box", &["light.shadow.format=depth16", "light.shadow.transfer=copy"]),
@@ -119,11 +122,16 @@ fn drawn(context: &Rc<dyn Context>, scenes: &[(&'static str, Plan)]) -> Vec<Resu
         .collect()
 }
 
-/// The scenes, and their pictures by the sound driver. Drawn twice: one that the driver draws in two ways is left out.
+/// The judge's scenes, and their pictures by the sound driver.
 pub fn sound() -> Vec<Sound> {
+    sound_of(SCENES)
+}
+
+/// Scenes, and their pictures by the sound driver. Drawn twice: one that the driver draws in two ways is left out.
+pub fn sound_of(scenes: &[SceneRow]) -> Vec<Sound> {
     let context = context(None);
     let mut renderer = Renderer::new(&context);
-    let plan = |&(name, file, set): &(&'static str, &str, &[&str])| {
+    let plan = |&(name, file, set): &SceneRow| {
         let path = format!("data/{file}.toml");
         let set: Vec<_> = ["image.size=[64, 64]"].iter().chain(set).map(|set| (*set).to_owned()).collect();
         let scene = glumbra::load(Path::new(&path), &set).unwrap_or_else(|error| panic!("{name}: {error}")).scene;
@@ -134,7 +142,7 @@ pub fn sound() -> Vec<Sound> {
             .or_else(|_| renderer.plan(&scene, &Request { sampled_warnings: false, ..Request::default() }));
         (name, plan.unwrap_or_else(|error| panic!("{name}: {error}")))
     };
-    let scenes: Vec<_> = SCENES.iter().map(plan).collect();
+    let scenes: Vec<_> = scenes.iter().map(plan).collect();
     drop(renderer);
     let first = drawn(&context, &scenes);
     let second = drawn(&self::context(None), &scenes);
@@ -148,10 +156,40 @@ pub fn sound() -> Vec<Sound> {
 
 /// Names of the scenes whose pictures the fault changes.
 pub fn changed(fault: &Fault, sound: &[Sound]) -> Vec<&'static str> {
+    shares(fault, sound).into_iter().map(|(name, _)| name).collect()
+}
+
+/// Scenes whose pictures the fault changes, each with the largest share of a picture's pixels that differ.
+pub fn shares(fault: &Fault, sound: &[Sound]) -> Vec<(&'static str, f64)> {
     let scenes: Vec<_> = sound.iter().map(|scene| (scene.name, scene.plan.clone())).collect();
     let pictures = drawn(&context(Some(fault)), &scenes);
     let differs = pictures.into_iter().zip(sound).filter(|(pixels, sound)| pixels.as_ref() != Ok(&sound.pixels));
-    differs.map(|(_, sound)| sound.name).collect()
+    let share = |pixels: Result<Vec<Pixels>, String>, sound: &Sound| {
+        let pixels = pixels.unwrap_or_default();
+        let shares = pixels.iter().zip(&sound.pixels).map(|(one, other)| differing(one, other));
+        if pixels.len() == sound.pixels.len() { shares.fold(0.0, f64::max) } else { 1.0 }
+    };
+    differs.map(|(pixels, sound)| (sound.name, share(pixels, sound))).collect()
+}
+
+/// Share of the pixels that differ; 1 of pictures of two kinds or sizes.
+fn differing(one: &Pixels, other: &Pixels) -> f64 {
+    fn share<T: PartialEq>(one: &[T], other: &[T], each: usize) -> f64 {
+        let pixels = one.chunks(each).zip(other.chunks(each));
+        pixels.filter(|(a, b)| a != b).count() as f64 / (one.len() / each).max(1) as f64
+    }
+    match (one, other) {
+        (Pixels::Rgba8 { size: a, data: one }, Pixels::Rgba8 { size: b, data: other }) if a == b => {
+            share(one, other, 4)
+        }
+        (Pixels::RgbaF32 { size: a, data: one }, Pixels::RgbaF32 { size: b, data: other }) if a == b => {
+            share(one, other, 4)
+        }
+        (Pixels::Depth { size: a, data: one }, Pixels::Depth { size: b, data: other }) if a == b => {
+            share(one, other, 1)
+        }
+        _ => 1.0,
+    }
 }
 
 /// Does `work` for each fault on two threads; what it gives, in the faults' order.

@@ -5,6 +5,7 @@
 
 mod judge;
 mod reduced;
+mod shown;
 
 use std::process::ExitCode;
 use std::time::Instant;
@@ -33,6 +34,10 @@ struct Arguments {
     /// table, held against the broken driver and the sound one
     #[arg(long)]
     reduce: bool,
+    /// Runs no rules, but draws the scenes in which faults of the tenth measure are shown, and tells the share of their pixels
+    /// that each fault changes
+    #[arg(long)]
+    shown: bool,
 }
 
 /// The table's text, from all faults and what is known of them.
@@ -50,6 +55,18 @@ fn table(known: &[Row]) -> String {
         text += &format!("| {} | {} | {red} | {changed} |\n", fault.name, fault.says);
     }
     text
+}
+
+/// Prints the scenes of `shown` that each fault changes, and the share of their pixels.
+fn tell_shares(faults: &[&'static Fault]) {
+    let scenes = judge::sound_of(&shown::scenes());
+    println!("{} faults, {} scenes", faults.len(), scenes.len());
+    each(faults, |fault| {
+        let mut shares = judge::shares(fault, &scenes);
+        shares.sort_by(|a, b| b.1.total_cmp(&a.1));
+        let shares: Vec<_> = shares.iter().map(|(name, share)| format!("{name} {:.2} %", 100.0 * share)).collect();
+        println!("{}: {}", fault.name, shares.join(", "));
+    });
 }
 
 fn main() -> ExitCode {
@@ -77,6 +94,10 @@ fn main() -> ExitCode {
     let chosen: Vec<_> = faults::all().filter(|fault| named(fault) && (!arguments.holes || is_hole(fault))).collect();
     if arguments.reduce {
         return if reduced::all(&chosen, &known) { ExitCode::SUCCESS } else { ExitCode::FAILURE };
+    }
+    if arguments.shown {
+        tell_shares(&chosen);
+        return ExitCode::SUCCESS;
     }
     // Rules by their ids: those among the names that begin with GL-.
     let is_meant = |rule: &&glumbra::conformance::Rule| ids.is_empty() || ids.iter().any(|id| id == rule.id);

@@ -44,7 +44,7 @@ fn without_black(source: &Source) -> Option<String> {
 }
 
 /// Name of a fragment shader's colour.
-fn output(source: &Source) -> Option<&str> {
+pub(super) fn output(source: &Source) -> Option<&str> {
     let is_output = |line: &str| line.trim_start().trim_start_matches("EXACT ").starts_with("out vec4 ");
     words(source.text.lines().find(|line| is_output(line))?.split_once("vec4 ")?.1).next()
 }

@@ -97,12 +97,15 @@ fn is_opaque(text: &str) -> bool {
 /// Bytes of a pixel that is read; 0 for kinds that are not known.
 pub(super) fn bytes_of_pixel(format: u32, kind: u32) -> usize {
     let size = match kind {
+        glow::UNSIGNED_INT_24_8 if format == glow::DEPTH_STENCIL => return 4,
         glow::UNSIGNED_BYTE => 1,
+        glow::UNSIGNED_SHORT => 2,
         glow::FLOAT | glow::UNSIGNED_INT => 4,
         _ => 0,
     };
     size * match format {
-        glow::RGBA => 4,
+        glow::RGBA | glow::BGRA => 4,
+        glow::RGB => 3,
         glow::DEPTH_COMPONENT | glow::STENCIL_INDEX | glow::RED => 1,
         _ => 0,
     }

@@ -1,15 +1,12 @@
 //! Faults of framebuffers: attachments, buffers to draw to and to read, copies, blits, pixels that are read.
 
+use super::fourth::bytes_of_pixel;
 use super::{Call, hold, release};
 
-/// Bytes of the pixels that glReadPixels writes without padding: a row's, and the rows.
+/// Bytes of the pixels that glReadPixels writes without padding: a row's, and the rows. None of a layout that is not known: what
+/// lies behind the caller's memory is nobody's.
 fn pixels(call: &Call) -> (usize, usize) {
-    let size = match (call.u(4), call.u(5)) {
-        (glow::RGBA, glow::FLOAT) => 16,
-        (glow::STENCIL_INDEX, glow::UNSIGNED_BYTE) => 1,
-        _ => 4,
-    };
-    (size * call.u(2) as usize, call.u(3) as usize)
+    (bytes_of_pixel(call.u(4), call.u(5)) * call.u(2) as usize, call.u(3) as usize)
 }
 
 /// Changes what glReadPixels has written.

@@ -44,6 +44,10 @@ mod apart_seven_shaders;
 mod apart_shaders;
 mod apart_six;
 mod apart_six_inputs;
+mod apart_ten;
+mod apart_ten_pixels;
+mod apart_ten_raster;
+mod apart_ten_shaders;
 mod beyond;
 mod blending;
 mod depth;
@@ -159,6 +163,10 @@ const KINDS: &[&[Fault]] = &[
     apart_nine_raster::FAULTS,
     apart_nine_shaders::FAULTS,
     apart_nine_inputs::FAULTS,
+    apart_ten::FAULTS,
+    apart_ten_raster::FAULTS,
+    apart_ten_pixels::FAULTS,
+    apart_ten_shaders::FAULTS,
 ];
 
 /// Every fault.

@@ -57,6 +57,7 @@ const FUNCTIONS: &[Function] = &[
     function("floor", "result = floor(a);", [-9.0, 9.0], 0.0, |a| a.map(f64::floor)),
     function("ceil", "result = ceil(a);", [-9.0, 9.0], 0.0, |a| a.map(f64::ceil)),
     function("fract", "result = fract(a);", [-9.0, 9.0], 16.0, |a| a.map(|x| x - x.floor())),
+    function("fract of large numbers", "result = fract(a);", [-5000.0, 5000.0], 16.0, |a| a.map(|x| x - x.floor())),
     function("mod", "result = mod(a, 2.0);", [-9.0, 9.0], 64.0, |a| a.map(|x| x - 2.0 * (x / 2.0).floor())),
     function("min", "result = vec4(min(a.xy, a.zw), min(a.x, a.y), min(a.w, 0.25));", [-4.0, 4.0], 0.0, |a| {
         [a[0].min(a[2]), a[1].min(a[3]), a[0].min(a[1]), a[3].min(0.25)]
@@ -102,6 +103,9 @@ const FUNCTIONS: &[Function] = &[
     function("inversesqrt", "result = inversesqrt(a);", [0.01, 90.0], 4.0, |a| a.map(|x| 1.0 / x.sqrt())),
     function("division", "result = a.xyzw / a.yzwx;", [0.5, 40.0], 5.0, |a| {
         [0, 1, 2, 3].map(|i| a[i] / a[(i + 1) % 4])
+    }),
+    function("reciprocals", "result = vec4(1.0 / a.x, 1.0 / (a.y + a.z), 1.0 / a.zw);", [0.03, 2.0], 8.0, |a| {
+        [1.0 / a[0], 1.0 / (a[1] + a[2]), 1.0 / a[2], 1.0 / a[3]]
     }),
     function("exp, exp2", "result = vec4(exp(a.xy), exp2(a.zw));", [-8.0, 4.0], 40.0, |a| {
         [a[0].exp(), a[1].exp(), a[2].exp2(), a[3].exp2()]

@@ -1,10 +1,13 @@
 //! Drivers that are broken on purpose: each fault turns a rule of `glumbra check` red, and everything of GL that the
 //! renderer uses has a fault, or a reason why none could be seen.
 
+mod reading;
 mod uses;
 
 #[path = "../../faults/judge.rs"]
 mod judge;
+#[path = "../../faults/shown.rs"]
+mod shown;
 
 use std::collections::BTreeSet;
 
@@ -119,6 +122,17 @@ fn every_fault_turns_a_rule_red() {
     });
     let wrong: Vec<_> = wrong.into_iter().flatten().collect();
     assert!(wrong.is_empty(), "{wrong:#?}\n{HOW}");
+}
+
+/// Each fault of the tenth measure changes a picture of the product, by the share of its pixels that stands with it.
+#[test]
+fn faults_that_are_shown_change_pictures() {
+    let scenes = judge::sound_of(&shown::scenes());
+    let names: BTreeSet<_> = shown::SHOWN.iter().map(|(name, _, _)| *name).collect();
+    let faults: Vec<&'static Fault> = faults::all().filter(|fault| names.contains(fault.name)).collect();
+    assert!(faults.len() == names.len() && names.len() >= 34, "{} of {} names", faults.len(), names.len());
+    let wrong: Vec<_> = judge::each(&faults, |fault| shown::wrong(fault, &scenes)).into_iter().flatten().collect();
+    assert!(wrong.is_empty(), "{wrong:#?}");
 }
 
 /// A fault that no rule sees has a reason.
