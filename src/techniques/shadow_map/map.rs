@@ -2,7 +2,7 @@
 
 use super::settings::Settings;
 use super::{bias, fit};
-use crate::lights::projector::Rays;
+use crate::lights::projector::Projector;
 use crate::lights::{FrustumView, MapInfo, MapShape};
 use crate::pass::PolygonOffset;
 use crate::scene::LightKind;
