@@ -74,7 +74,7 @@ pub fn scenes() -> Vec<SceneRow> {
     [judge::SCENES, SCENES].concat()
 }
 
-/// What is said of a fault in [`SHOWN`] and is not so.
+/// Statements of [`SHOWN`] about faults that do not hold.
 pub fn wrong(fault: &Fault, scenes: &[Sound]) -> Option<String> {
     let (_, scene, percent) = SHOWN.iter().find(|(name, _, _)| *name == fault.name)?;
     let shares = judge::shares(fault, scenes);

@@ -107,7 +107,7 @@ fn copies_from_another_precision_are_timed() {
 }
 
 /// A plane falls away by its slope: four times as wide a texel needs four times the offset, and one half in the first level.
-/// Of four depths at a silhouette the mean belongs to no surface.
+/// The mean of four depths at a silhouette belongs to no surface.
 #[test]
 fn a_smaller_level_needs_an_offset_as_wide_as_its_texels() {
     let offset = claim("needs more polygon offset");
@@ -171,7 +171,7 @@ fn one_grid_is_a_depth_test_in_codes_only() {
     assert_eq!((codes.verdict, codes.first.value), (ClaimVerdict::Holds, Some(0.0)), "{codes}");
 }
 
-/// What a scene cannot show is said, in words, and is no verdict.
+/// A claim that a scene cannot show has a reason in words, and no verdict.
 #[test]
 fn a_scene_without_a_spotlight_says_what_it_cannot_show() {
     let sun = SCENE.replace(

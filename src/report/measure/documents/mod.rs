@@ -38,7 +38,7 @@ pub struct ClaimRequest<'a> {
 /// Claims, and the sweeps that they rest on.
 #[derive(Default)]
 pub struct Further {
-    /// Claims in the documents' order.
+    /// Claims in the order of the documents.
     pub claims: Vec<Claimed>,
     /// Their sweeps.
     pub sweeps: Vec<ClaimSweep>,
