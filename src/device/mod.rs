@@ -30,7 +30,7 @@ use glow::HasContext;
 
 use crate::context::Context;
 use crate::geometry::Mesh;
-use crate::pass::{Attribute, DrawState, ImageDesc, IndexOrder, Pass, Program, Sampler, Target, Work};
+use crate::pass::{Attribute, ImageDesc, IndexOrder, Pass, Program, Sampler, Target};
 
 pub use error::Error;
 #[cfg(feature = "fixed-function")]
@@ -151,31 +151,7 @@ fn mesh_key(mesh: &Arc<Mesh>) -> *const Mesh {
     Arc::as_ptr(mesh)
 }
 
-/// Tests whether `pass` with the same objects was the last to draw into its target, there or in more texels.
+/// Tests whether `pass` with the same objects was the last to draw into its target.
 fn unchanged(done: Option<&run::Done>, pass: &Pass, objects: &[u32]) -> bool {
-    done.is_some_and(|done| done.objects == objects && draws_all_of(&done.pass, pass))
-}
-
-/// Tests whether `done` draws all that `pass` draws: the same, or the same depth in a scissor around that of `pass`.
-fn draws_all_of(done: &Pass, pass: &Pass) -> bool {
-    done == pass
-        || is_same_elsewhere(done, pass)
-            && done.scissor().is_none_or(|around| pass.scissor().is_some_and(|part| contains(around, part)))
-}
-
-/// Tests whether two passes of depth differ in their scissors alone.
-fn is_same_elsewhere(done: &Pass, pass: &Pass) -> bool {
-    let (Work::Draw(before), Work::Draw(after)) = (&done.work, &pass.work) else { return false };
-    let anywhere = |state: &DrawState| DrawState { scissor: None, ..*state };
-    before.target.color.is_none()
-        && (&done.label, done.redraw) == (&pass.label, pass.redraw)
-        && (before.target, before.viewport, before.clear) == (after.target, after.viewport, after.clear)
-        && anywhere(&before.state) == anywhere(&after.state)
-        && before.batches == after.batches
-}
-
-fn contains(around: [u32; 4], part: [u32; 4]) -> bool {
-    let is_within =
-        |axis: usize| around[axis] <= part[axis] && part[axis] + part[axis + 2] <= around[axis] + around[axis + 2];
-    is_within(0) && is_within(1)
+    done.is_some_and(|done| done.pass == *pass && done.objects == objects)
 }

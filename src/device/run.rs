@@ -8,7 +8,7 @@ use glow::HasContext;
 
 use super::image::{self, GpuImage, ImageName};
 use super::state::{apply, set_mirrored};
-use super::{Device, Error, framebuffer, is_same_elsewhere, mesh, mesh_key, program, unchanged};
+use super::{Device, Error, framebuffer, mesh, mesh_key, program, unchanged};
 use crate::pass::{
     Batch, Draw, DrawPass, DrawState, Format, ImageDesc, ImageId, Pass, PassList, Primitive, Redraw, Target,
     UniformValue, Work,
@@ -67,28 +67,12 @@ impl Device {
                 continue;
             }
             written.extend(pass.writes());
-            let whole = self.without_scissor_that_moves(pass, &objects);
-            let pass = whole.as_ref().unwrap_or(pass);
             times.extend(self.timed(list, pass, measure)?);
             if pass.redraw == Redraw::WhenChanged {
                 self.done.insert(pass.label.clone(), Done { pass: pass.clone(), objects });
             }
         }
         Ok(times)
-    }
-
-    /// The pass without its scissor, if it was drawn before and only its scissor has moved since: the camera moves, and the
-    /// whole target can be kept for all that it will see.
-    fn without_scissor_that_moves(&self, pass: &Pass, objects: &[u32]) -> Option<Pass> {
-        let done = self.done.get(&pass.label).filter(|_| pass.redraw == Redraw::WhenChanged)?;
-        if done.objects != objects || done.pass == *pass || !is_same_elsewhere(&done.pass, pass) {
-            return None;
-        }
-        let mut whole = pass.clone();
-        if let Work::Draw(draw) = &mut whole.work {
-            draw.state.scissor = None;
-        }
-        Some(whole)
     }
 
     /// Tests whether the pass's target already holds what it would draw. The pass must be unchanged. So must all others

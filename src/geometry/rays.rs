@@ -277,13 +277,13 @@ mod tests {
     fn triangles_in_groups_are_crossed_as_each_alone() {
         let mut random = fastrand::Rng::with_seed(3);
         let mut place = || DVec3::from_array([(); 3].map(|()| random.f64()));
-        let small = |at: DVec3, a: DVec3, b: DVec3| [at, at + 0.02 * (a - 0.5), at + 0.02 * (b - 0.5)];
+        let small = |at: DVec3, a: DVec3, b: DVec3| [at, at + 0.04 * (a - 0.5), at + 0.04 * (b - 0.5)];
         let corners: Vec<[DVec3; 3]> =
             (0..3 * TRIANGLES_PER_GROUPED).map(|_| small(place(), place(), place())).collect();
         let all = Triangles::new(corners.clone());
         assert_eq!(all.group, 3);
         let mut crossed = 0;
-        for _ in 0..40 {
+        for _ in 0..200 {
             let (origin, way) = (2.0 * place() - 0.5, place() - 0.5);
             let ray = Ray { origin, way, start: -9.0, end: 9.0 };
             let mut met = Vec::new();

@@ -138,14 +138,6 @@ pub struct Clear {
 }
 
 impl Pass {
-    /// The texels of its target that it draws, as [`DrawState::scissor`]; `None`: all.
-    pub fn scissor(&self) -> Option<[u32; 4]> {
-        match &self.work {
-            Work::Draw(draw) => draw.state.scissor,
-            Work::CopyDepth { .. } => None,
-        }
-    }
-
     /// The images that the pass samples, copies, or adds to without clearing them first.
     pub fn reads(&self) -> Vec<ImageId> {
         match &self.work {

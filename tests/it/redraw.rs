@@ -58,40 +58,6 @@ fn a_map_is_drawn_again_when_its_pass_changes() {
     assert!(fresh.read(&plan).unwrap().picture == after);
 }
 
-/// A map that was drawn where the first camera looked it up is drawn once more, whole, for a camera that looks elsewhere, and
-/// then never again.
-#[test]
-fn a_map_in_part_is_drawn_whole_when_the_camera_looks_elsewhere() {
-    let context = context::open(&ContextRequest::default()).unwrap();
-    let mut renderer = Renderer::new(&context);
-    let mut scene = scene("technique = \"shadow-map\", size = 256");
-    scene.camera.fov_y_radians = 0.4;
-    let aimed = |x: f64| {
-        let mut scene = scene.clone();
-        scene.camera.target.x += x;
-        scene
-    };
-    let mut drawn = |scene: &Scene| {
-        let plan = renderer.plan(scene, &Request::default()).unwrap();
-        let scissor = plan.list.passes.iter().find(|pass| pass.label == "light 0: depth").unwrap().scissor();
-        let times = renderer.device().run(&plan.list, Measure::Passes).unwrap();
-        let maps = times.iter().filter(|time| time.label == "light 0: depth").count();
-        (scissor, maps, renderer.read(&plan).unwrap().picture)
-    };
-    let (first, maps, _) = drawn(&aimed(0.0));
-    assert!(first.is_some() && maps == 1);
-    let (second, maps, picture) = drawn(&aimed(0.2));
-    assert!(second.is_some() && second != first && maps == 1);
-    for x in [0.1, -0.2, 0.0, 0.2] {
-        assert_eq!(drawn(&aimed(x)).1, 0, "the whole map is there");
-    }
-    let own = context::open(&ContextRequest::default()).unwrap();
-    let mut fresh = Renderer::new(&own);
-    let plan = fresh.plan(&aimed(0.2), &Request::default()).unwrap();
-    fresh.draw(&plan).unwrap();
-    assert!(fresh.read(&plan).unwrap().picture == picture);
-}
-
 /// Meshes that the passes with `label` in their names draw.
 fn meshes(plan: &Plan, label: &str) -> Vec<MeshRef> {
     let passes = plan.list.passes.iter().filter(|pass| pass.label.contains(label));

@@ -4,17 +4,16 @@
 //! A lookup beyond the cropped map meets the texels at its rim (GL_CLAMP_TO_EDGE). They lie more than a filter's reach from
 //! every caster and hold nothing, or nothing visible and lit lies there.
 
-use glam::{DVec2, DVec3, DVec4};
+use glam::{DVec3, DVec4};
 
 use super::bias;
 use super::casters::may_cast;
-use super::settings::{Addressing, Bias, Fit, Mipmaps, Settings};
+use super::settings::{Bias, Fit, Mipmaps, Settings};
 use crate::lights::caster_culling::Unseen;
-use crate::lights::projector::{Projector, Rays};
+use crate::lights::projector::Rays;
 use crate::lights::{Crop, Drawable, FrustumView, Notes};
 use crate::math::Aabb;
 use crate::math::frustum::{self, clip_polygon};
-use crate::scene::Interpolation;
 
 /// Removes from `casters` those that shadow nothing in the scene, and finds the part of the light's frustum that the map
 /// covers.
@@ -44,7 +43,7 @@ pub fn crop(view: &FrustumView<'_>, casters: &mut Vec<&Drawable>, settings: &Set
         return Crop::WHOLE;
     }
     let needed = of_casters(view, &unseen);
-    let needed = if settings.fit == Fit::View { needed.within(of_sight(view, false)) } else { needed };
+    let needed = if settings.fit == Fit::View { needed.within(of_sight(view)) } else { needed };
     if needed.is_empty() {
         return Crop::WHOLE;
     }
@@ -77,24 +76,16 @@ fn of_casters(view: &FrustumView<'_>, unseen: &Unseen) -> Crop {
     crop.within(Crop::WHOLE)
 }
 
-/// Most items that are looked at one by one.
-const FEW: usize = 64;
-
-/// A crop around the lit parts of the items that the camera sees: of each, or of a box around them all where they are many.
-fn of_sight(view: &FrustumView<'_>, each: bool) -> Crop {
-    let bounds = view.camera.visible.iter().map(|item| item.bounds.transformed(&item.world_from_model));
-    if each && view.camera.visible.len() <= FEW {
-        let seen = bounds.map(|bounds| of_box(view, bounds)).filter(|own| *own != Crop::NOTHING);
-        seen.fold(Crop::NOTHING, |all, own| all.with(own.min).with(own.max))
-    } else {
-        of_box(view, bounds.fold(Aabb::EMPTY, Aabb::union))
-    }
-}
-
-/// A crop around the lit part of a box that the camera sees. Every light's ray that meets the part that both box and camera
-/// hold leaves it through one of its faces: so these are enough.
-fn of_box(view: &FrustumView<'_>, bounds: Aabb) -> Crop {
+/// A crop around the lit part of the scene's bounds that the camera sees. Every light's ray that meets the part that both
+/// bounds and camera hold leaves it through one of its faces: so these are enough.
+fn of_sight(view: &FrustumView<'_>) -> Crop {
     let camera_clip = view.camera.clip_from_world;
+    let points = view
+        .camera
+        .visible
+        .iter()
+        .flat_map(|item| item.bounds.corners().map(|corner| item.world_from_model.transform_point3(corner)));
+    let bounds = Aabb::from_points(points);
     let slack = DVec3::splat(1e-6 * bounds.radius());
     let bounds = Aabb { min: bounds.min - slack, max: bounds.max + slack };
     let light_clip = view.clip_from_world();
@@ -119,43 +110,6 @@ fn of_box(view: &FrustumView<'_>, bounds: Aabb) -> Crop {
         }
     }
     crop
-}
-
-/// Greatest share of a map's texels that is worth a scissor.
-const MOST: f64 = 0.9;
-
-/// The texels that the camera's picture may look up in the map of a spotlight, as [`DrawState::scissor`]; `None`: nearly all.
-/// The others need not be drawn: no pixel is compared with them.
-///
-/// [`DrawState::scissor`]: crate::pass::DrawState::scissor
-pub fn looked_up(view: &FrustumView<'_>, settings: &Settings, notes: &mut Notes) -> Option<[u32; 4]> {
-    let interpolation = view.light().spot().map(|spot| spot.interpolation);
-    // Other levels, other rows, or other places than the points' own are looked up.
-    let is_foreseen = settings.mipmaps == Mipmaps::None
-        && settings.addressing == Addressing::OpenGl
-        && interpolation == Some(Interpolation::Perspective);
-    if view.shown_whole || view.keep_all || view.photo().is_some() || !is_foreseen {
-        return None;
-    }
-    let sight = of_sight(view, true);
-    if sight.is_empty() {
-        return None;
-    }
-    let size = f64::from(settings.size);
-    let texel = |point: DVec2| 0.5 * size * ((point - view.projector.crop.center()) / view.projector.crop.half() + 1.0);
-    // One for the rounding of positions, one for texels of which a part is looked up.
-    let rim = lookup_texels(settings, slant(&view.projector)) + 2.0;
-    let ends = DVec2::splat(size);
-    let low = (texel(sight.min) - rim).floor().clamp(DVec2::ZERO, ends);
-    let high = (texel(sight.max) + rim).ceil().clamp(DVec2::ZERO, ends);
-    let share = (high - low).element_product() / (size * size);
-    if share == 0.0 || share > MOST {
-        return None;
-    }
-    let what = format!("{:.0} % of the texels of {}'s map", 100.0 * (1.0 - share), view.name());
-    notes.left_out(what, "no point that the camera sees is compared with them");
-    let [left, bottom, width, height] = [low.x, low.y, high.x - low.x, high.y - low.y].map(|texels| texels as u32);
-    Some([left, bottom, width, height])
 }
 
 fn sides(bounds: &Aabb) -> [DVec4; 6] {
@@ -197,12 +151,4 @@ pub fn lookup_texels(settings: &Settings, slant: f64) -> f64 {
         texels *= 2.0;
     }
     texels
-}
-
-/// The secant of the angle between the axis and the corner of the frustum; 1 for parallel light.
-pub fn slant(projector: &Projector) -> f64 {
-    match projector.rays {
-        Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),
-        Rays::Along(_) => 1.0,
-    }
 }

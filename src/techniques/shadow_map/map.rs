@@ -2,7 +2,7 @@
 
 use super::settings::Settings;
 use super::{bias, fit};
-use crate::lights::projector::Projector;
+use crate::lights::projector::{Projector, Rays};
 use crate::lights::{FrustumView, MapInfo, MapShape};
 use crate::pass::PolygonOffset;
 use crate::scene::LightKind;
@@ -17,12 +17,20 @@ pub(super) fn map_info(view: &FrustumView<'_>, settings: &Settings, texels: f64)
         format: settings.format,
         texel: bias::texel_at_one(&view.projector, settings),
         texel_short: bias::texel_sides_at_one(&view.projector, settings).min_element(),
-        reach_texels: fit::lookup_texels(settings, fit::slant(&view.projector)),
+        reach_texels: fit::lookup_texels(settings, slant(&view.projector)),
         bias: settings.bias,
         cull: settings.cull,
         polygon: PolygonOffset { factor: 0.0, units: 0.0 },
         texels,
         middle: false,
+    }
+}
+
+/// The secant of the angle between the axis and the corner of the frustum; 1 for parallel light.
+fn slant(projector: &Projector) -> f64 {
+    match projector.rays {
+        Rays::From { .. } => (1.0 + 0.5 * projector.extent(1.0).powi(2)).sqrt(),
+        Rays::Along(_) => 1.0,
     }
 }
 

@@ -152,8 +152,7 @@ fn one_map(mut view: FrustumView<'_>, settings: &Settings, list: &mut PassList, 
         if settings.simplified { simplified_casters::simplified(view, &casters, settings, notes) } else { Vec::new() };
     let fewer: Vec<&Drawable> = fewer.iter().collect();
     let casters = if settings.simplified { &fewer } else { &casters };
-    let scissor = fit::looked_up(view, settings, notes);
-    let layer = DepthLayer { scissor, ..DepthLayer::plain("depth", "map", offset.polygon, casters) };
+    let layer = DepthLayer::plain("depth", "map", offset.polygon, casters);
     let map = depth::draw(view, &layer, settings, list, notes);
     let mut term = term::term(view, map, settings, offset.texels);
     term.map_info = term.map_info.map(|info| MapInfo { polygon: offset.polygon, ..info });
