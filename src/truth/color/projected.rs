@@ -110,18 +110,20 @@ fn code_ranges(texture: &Texture, wrap: Wrapped, [first, last]: [DVec2; 2]) -> O
     let [columns, rows] = [(first.x, last.x, texture.width), (first.y, last.y, texture.height)]
         .map(|(first, last, count)| runs(wrap, [first, last], count));
     let (mut least, mut most) = ([u8::MAX; 16], [u8::MIN; 16]);
-    let mut add = |texels: &[u8]| {
-        for ((code, least), most) in texels.iter().zip(&mut least).zip(&mut most) {
-            (*least, *most) = ((*least).min(*code), (*most).max(*code));
-        }
-    };
     for row in rows.into_iter().flatten() {
         for run in columns.clone() {
             let texels = texture.rgba.get(4 * (row * width + run.start)..4 * (row * width + run.end));
             // A picture that is cut off is black there.
             let (fours, rest) = texels.unwrap_or(&[0; 4]).as_chunks::<16>();
-            fours.iter().for_each(|four| add(four));
-            add(rest);
+            // A loop of known length: the compiler takes all sixteen codes at once.
+            for four in fours {
+                for k in 0..16 {
+                    (least[k], most[k]) = (least[k].min(four[k]), most[k].max(four[k]));
+                }
+            }
+            for (k, code) in rest.iter().enumerate() {
+                (least[k], most[k]) = (least[k].min(*code), most[k].max(*code));
+            }
         }
     }
     let of_channel = |codes: [u8; 16], pick: fn(u8, u8) -> u8| {
