@@ -165,7 +165,8 @@ impl Device {
     }
 
     pub(super) fn make_images(&mut self, list: &PassList) -> Result<(), Error> {
-        let mut old: HashMap<(String, [u32; 2]), VecDeque<(ImageDesc, Rc<GpuImage>)>> = HashMap::new();
+        type Alike = VecDeque<(ImageDesc, Rc<GpuImage>)>;
+        let mut old: HashMap<(String, [u32; 2]), Alike> = HashMap::new();
         for (desc, image) in std::mem::take(&mut self.images) {
             old.entry((desc.label.clone(), desc.size)).or_default().push_back((desc, image));
         }

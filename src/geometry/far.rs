@@ -22,6 +22,7 @@ pub(super) fn origin_of(bounds: &Aabb) -> DVec3 {
 }
 
 /// Positions relative to an origin near them, and that origin.
+#[cfg(any(feature = "gltf", feature = "ply", feature = "stl"))]
 pub(super) fn relative(positions: &[[f64; 3]]) -> (Vec<[f32; 3]>, DVec3) {
     let places = || positions.iter().map(|position| DVec3::from_array(*position));
     let origin = origin_of(&Aabb::from_points(places()));

@@ -88,7 +88,7 @@ pub(super) fn measure(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> (V
 /// Draws the levels and averages them.
 fn levels(request: &ClaimRequest<'_>, renderer: &mut Renderer) -> Result<Levels, String> {
     let light = request.scene.lights.get(request.light).ok_or("there is no such light")?;
-    let size = LightShadow::of(&light.shadow).and_then(|_| Some(techniques::map_size(&light.shadow)));
+    let size = LightShadow::of(&light.shadow).map(|_| techniques::map_size(&light.shadow));
     let size = size.filter(|size| *size > 1).unwrap_or(1024).next_power_of_two();
     let window_from_world = window_from_world(request.scene, request.light, size)
         .ok_or("only a spotlight's map is one perspective picture")?;
