@@ -149,6 +149,11 @@ fn stress(arguments: &StressArgs, screen: Screen) -> Result<u8, Error> {
     };
     let stop = stop_on_interrupt();
     let results = draw(&cases, &options, &stop, screen)?;
+    if !arguments.files.is_empty() {
+        for (name, why) in results.iter().filter_map(|result| Some((&result.name, result.refused.as_ref()?))) {
+            super::say(format_args!("error: {name} is refused: {why}"));
+        }
+    }
     if let Some(folder) = &arguments.output {
         let reduced = reduce(&cases, &results, &options, screen)?;
         stress::write(folder, arguments.seed, &results, &reduced)?;

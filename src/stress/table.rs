@@ -102,13 +102,17 @@ pub fn shares(results: &[CaseResult]) -> String {
     let unusable = defaults.iter().filter(|row| row.is_unusable()).count();
     let decided = results.iter().map(|result| result.decided).sum::<f64>() / results.len().max(1) as f64;
     let seconds: f64 = results.iter().map(|result| result.seconds).sum();
+    // Named scenes are extreme, and files are whatever they are: the limit is that of random ones.
+    let of_random = if defaults.is_empty() {
+        String::new()
+    } else {
+        let share = percent(unusable, defaults.len());
+        format!("warned or refused with default settings: {share:.2} % of {} random rows (at most 5)\n", defaults.len())
+    };
     format!(
-        "false alarms: {:.2} % of all rows (at most 2)\n\
-         warned or refused with default settings: {:.2} % of {} random rows (at most 5)\n\
+        "false alarms: {:.2} % of all rows (at most 2)\n{of_random}\
          {} cases, {:.2} s each; the ray tracer is certain of {:.2} % of the pixels drawn\n",
         percent(alarms, rows.len()),
-        percent(unusable, defaults.len()),
-        defaults.len(),
         results.len(),
         seconds / results.len().max(1) as f64,
         100.0 * decided,
