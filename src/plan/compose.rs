@@ -110,10 +110,11 @@ fn planned_light(
     let shown_whole = request.views.iter().filter(of_this).any(|v| v.view.needs_map());
     // Things outside the camera's view may be in another viewer's.
     let shown_whole = shown_whole || request.subject != Subject::Camera;
-    // Shadows are seen in the air, too.
-    let shown_whole = shown_whole || view.light().dust.is_some();
+    // Shadows are seen in the air, too, and of a light without a guard behind it.
+    let is_unguarded = shadow.common.guard == Guard::None;
+    let shown_whole = shown_whole || view.light().dust.is_some() || is_unguarded;
     let view = LightView { shown_whole, ..*view };
-    let absent = why_absent(&view).filter(|_| !keep_all);
+    let absent = why_absent(&view, is_unguarded).filter(|_| !keep_all);
     if let Some(why) = absent {
         notes.left_out(format!("light {index}"), why);
     }
@@ -149,7 +150,7 @@ fn lens_in_use(spot: &Spot, index: usize, notes: &mut Notes) -> Option<Focus> {
 }
 
 /// Reason why a light adds nothing to the picture, if there is one.
-fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
+fn why_absent(view: &LightView<'_>, is_unguarded: bool) -> Option<&'static str> {
     let source = view.light();
     if [source.ambient, source.diffuse, source.specular].iter().all(|color| *color == [0.0; 3]) {
         return Some("its colours are black");
@@ -162,7 +163,7 @@ fn why_absent(view: &LightView<'_>) -> Option<&'static str> {
         let photo = item.photo.and_then(|photo| photos.get(photo));
         photo.is_some_and(|photo| photo::covers(photo, item, &view.camera.viewer))
     };
-    let Some(light_clip) = reach(source) else {
+    let Some(light_clip) = reach(source).filter(|_| !is_unguarded) else {
         if view.camera.visible.is_empty() {
             return Some("nothing that is seen is there for it to light");
         }

@@ -32,8 +32,6 @@ impl LightShadow {
     /// what is left out.
     pub fn describe(&self, view: &LightView<'_>, list: &mut PassList, notes: &mut Notes) -> LightTerm {
         let first = list.passes.len();
-        // Points behind the light then look up what is before it.
-        let view = &LightView { shown_whole: view.shown_whole || self.common.guard == Guard::None, ..*view };
         let mut term = self.settings.describe(view, list, notes);
         self.common.apply(&mut term, list.passes.get_mut(first..).unwrap_or_default());
         stencil_guard::guard(view, self.common.guard, &mut term, notes);
