@@ -5,15 +5,23 @@ use std::path::{Path, PathBuf};
 
 use crate::scene::{self, Loaded};
 
+/// Where a case comes from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CaseSource {
+    /// The table of extreme cases.
+    Named,
+    /// A seed.
+    Random,
+    /// A file that was given: what its loader warned of excuses no wrong picture of what it did load.
+    File,
+}
+
 /// A scene to be drawn in every way.
 #[derive(Clone, Debug, PartialEq)]
 pub struct Case {
     /// Unique in a run; part of file names.
     pub name: String,
-    /// True if it was made from a seed; `false`: a named case.
-    pub is_random: bool,
-    /// True if it is of a file that was given: what its loader warned of excuses no wrong picture of what it did load.
-    pub is_given: bool,
+    pub source: CaseSource,
     /// Extreme property of the scene.
     pub why: String,
     /// The scene file.

@@ -4,7 +4,7 @@ use std::path::Path;
 
 use glam::DVec3;
 
-use super::case::Case;
+use super::case::{Case, CaseSource};
 use crate::math::Aabb;
 use crate::scene::{self, Loaded, Scene, Settings, Value};
 use crate::techniques;
@@ -66,8 +66,7 @@ fn plain_case(path: &Path, seconds: Option<f64>) -> Case {
     Case {
         // Part of a file's name.
         name: format!("{file}{time}").replace(|c: char| c.is_control() || "/\\:*?\"<>|".contains(c), "_"),
-        is_random: false,
-        is_given: true,
+        source: CaseSource::File,
         why: path.display().to_string(),
         toml: String::new(),
         set: Vec::new(),

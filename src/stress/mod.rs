@@ -23,7 +23,7 @@ mod run;
 mod table;
 mod write;
 
-pub use case::Case;
+pub use case::{Case, CaseSource};
 pub use colors::{rows as color_rows, rows_of as color_rows_of};
 pub use judge::{Judged, RowJudge};
 pub use reduce::reduce;

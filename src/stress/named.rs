@@ -2,7 +2,7 @@
 
 use serde::Deserialize;
 
-use super::case::{Case, FILES, files_named_in};
+use super::case::{Case, CaseSource, FILES, files_named_in};
 use super::pictures::{hills, noise};
 
 const CASES: &str = include_str!(concat!(env!("CARGO_MANIFEST_DIR"), "/data/stress/cases.toml"));
@@ -130,8 +130,7 @@ fn case(entry: &Entry, sweep: Option<(&String, f64)>) -> Result<Case, String> {
     }
     Ok(Case {
         name: sweep.map_or_else(|| entry.name.clone(), |(_, value)| format!("{}-{value:e}", entry.name)),
-        is_random: false,
-        is_given: false,
+        source: CaseSource::Named,
         why: entry.why.clone(),
         toml: (*toml).to_owned(),
         set,

@@ -4,7 +4,7 @@ use std::fmt::Write;
 
 use fastrand::Rng;
 
-use super::case::{Case, files_named_in};
+use super::case::{Case, CaseSource, files_named_in};
 
 /// Pixels of a picture.
 const SIZE: [u32; 2] = [160, 120];
@@ -18,8 +18,7 @@ pub fn case(seed: u64, index: u64) -> Case {
         name: format!("random-{seed}-{index}"),
         files: files_named_in(&toml),
         toml,
-        is_random: true,
-        is_given: false,
+        source: CaseSource::Random,
         why: String::from("a random scene"),
         set: Vec::new(),
         made: Vec::new(),

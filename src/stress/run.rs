@@ -5,7 +5,7 @@ use std::sync::Arc;
 use std::sync::atomic::AtomicBool;
 use std::time::Instant;
 
-use super::case::Case;
+use super::case::{Case, CaseSource};
 use super::colors;
 use super::judge::{Judged, RowJudge};
 use super::results::{CaseResult, CaseRow, RowPictures, Verdict};
@@ -54,7 +54,7 @@ pub fn draw_case(case: &Case, options: &StressOptions, renderer: &mut Renderer) 
     let start = Instant::now();
     let mut result = CaseResult {
         name: case.name.clone(),
-        is_random: case.is_random,
+        is_random: case.source == CaseSource::Random,
         why: case.why.clone(),
         sweep: case.sweep.clone(),
         decided: 1.0,
@@ -83,7 +83,7 @@ fn draw_rows(
         return Err(why.clone());
     }
     let mut loaded = case.load(folder)?;
-    if case.is_given {
+    if case.source == CaseSource::File {
         loaded.warnings.clear();
     }
     let pictured = loaded.scene;
@@ -135,7 +135,7 @@ fn draw_rows(
 fn has_all_rows_before(case: &Case, scene: &Scene, light: usize) -> bool {
     let kind = |light: &Light| std::mem::discriminant(&light.kind);
     let before = &scene.lights[..light];
-    match case.is_given {
+    match case.source == CaseSource::File {
         true => before.iter().any(|other| kind(other) == kind(&scene.lights[light])),
         false => !before.is_empty(),
     }

@@ -11,13 +11,7 @@ use glumbra::plan::{Plan, Request};
 use glumbra::scene::{PicturePasses, Scene};
 
 use crate::support::random::Random;
-
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
-}
+use crate::support::scene_of;
 
 fn draw(scene: &Scene, float_picture: bool, renderer: &mut Renderer) -> (Vec<f64>, Plan) {
     let plan = renderer.plan(scene, &Request { float_picture, ..Request::default() }).unwrap();
@@ -108,7 +102,7 @@ fn generated_scenes_are_those_of_one_pass() {
         );
         text += &objects(&mut random);
         (0..count).for_each(|_| text += &light(&mut random, 0.8));
-        let mut scene = load(&text);
+        let mut scene = scene_of(&text);
         for float in [false, true] {
             scene.shading.passes = PicturePasses::One;
             let (one, _) = draw(&scene, float, &mut renderer);
@@ -153,7 +147,7 @@ fn alpha_of_one_light_never_reaches_the_next() {
             if k % 2 == 0 { 25.0 } else { 70.0 },
         );
     }
-    let mut scene = load(&text);
+    let mut scene = scene_of(&text);
     let (three, plan) = draw(&scene, true, &mut renderer);
     let blends: Vec<Option<Blend>> = plan
         .list
@@ -191,7 +185,7 @@ fn light_above_one_is_said() {
              [[object]]\nmesh = \"box\"\nscale = 0.3\ntranslate = [0.0, 0.8, 0.0]\nmaterial = {{ diffuse = [0.5, 0.5, 0.5] }}\n\
              [[light]]\nposition = [1.0, 3.0, 1.0]\ntarget = [0.0, 0.0, 0.0]\ncone = 60.0\ncolor = [{strength:?}, 0.5, 0.5]\nshadow = {{ technique = \"shadow-map\" }}\n"
         );
-        let plan = glumbra::plan::make(&load(&text), &Request { float_picture, ..Request::default() }).unwrap();
+        let plan = glumbra::plan::make(&scene_of(&text), &Request { float_picture, ..Request::default() }).unwrap();
         plan.chosen.into_iter().find(|chosen| chosen.choice == "clamped to 1 before its shade").map(|chosen| chosen.why)
     };
     assert!(clamped(3.0, false).unwrap().contains("it reaches 1.5"));

@@ -1,10 +1,10 @@
 //! Claims of the documents that are about how shadows are drawn, as a report measures them on a small scene whose numbers are
 //! known beforehand: two boxes over a floor, one in the other's shadow.
 
-use std::path::Path;
 use std::sync::LazyLock;
 use std::time::Instant;
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::report::measure::documents::{self, ClaimRequest, Further};
@@ -49,13 +49,6 @@ scale = 0.3
 translate = [0.5, 0.5, -0.2]
 "#;
 
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(Path::new(&path), &[]).unwrap().scene
-}
-
 fn measure(scene: &Scene) -> Further {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
@@ -70,7 +63,7 @@ fn measure(scene: &Scene) -> Further {
     further
 }
 
-static MEASURED: LazyLock<Further> = LazyLock::new(|| measure(&load(SCENE)));
+static MEASURED: LazyLock<Further> = LazyLock::new(|| measure(&scene_of(SCENE)));
 
 fn claim(words: &str) -> &'static Claimed {
     let found: Vec<&Claimed> = MEASURED.claims.iter().filter(|claim| claim.says.contains(words)).collect();
@@ -178,7 +171,7 @@ fn a_scene_without_a_spotlight_says_what_it_cannot_show() {
         "kind = \"spot\"\nposition = [-1.8, 3.6, 1.4]\ntarget = [0.2, 0.3, 0.0]\ncone = 60.0\nshape = \"frustum\"\nnear = 0.8\nfar = 12.0",
         "kind = \"directional\"\ndirection = [0.5, -1.0, -0.3]",
     );
-    let further = measure(&load(&sun));
+    let further = measure(&scene_of(&sun));
     for words in
         ["needs more polygon offset", "is more wrong where eye and light look towards", "in the buffer's own codes"]
     {

@@ -1,5 +1,6 @@
 //! Warnings of maps that cannot show what is seen: given where the picture is wrong, and not where it is right.
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::judge::metrics::{Band, compare};
@@ -11,10 +12,7 @@ use glumbra::truth;
 /// README's camera, and what else a scene has.
 fn loaded(rest: &str) -> Scene {
     let camera = "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n";
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, format!("{camera}{rest}")).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
+    scene_of(&format!("{camera}{rest}"))
 }
 
 /// README's objects, under a spotlight.

@@ -9,13 +9,7 @@ use glumbra::scene::Scene;
 use glumbra::truth::{self, Air};
 
 use crate::support::random::Random;
-
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
-}
+use crate::support::scene_of;
 
 /// The picture in floats, and its passes.
 fn draw(scene: &Scene, renderer: &mut Renderer) -> (Vec<[f64; 3]>, PassList) {
@@ -62,7 +56,7 @@ fn errors(picture: &[[f64; 3]], clear: &[[f64; 3]], air: &[Air]) -> Vec<f64> {
 
 /// A camera and a light at one place, which look the same way: all rays are lit between two planes.
 fn headlight(dust: &str) -> Scene {
-    load(&format!(
+    scene_of(&format!(
         "[image]\nsize = [64, 48]\nbackground = [0.3, 0.5, 0.7]\n[camera]\neye = [0, 0, 0]\ntarget = [0, 0, -1]\nfov_y = 60.0\n\
          near = 0.1\nfar = 50.0\n[[light]]\nkind = \"spot\"\nshape = \"frustum\"\nposition = [0, 0, 0]\ntarget = [0, 0, -1]\n\
          cone = 120.0\nnear = 1.0\nfar = 4.0\ncolor = [1.0, 0.5, 0.25]\ndust = {{ {dust} }}\n\
@@ -144,7 +138,7 @@ fn random_scene(random: &mut Random, technique: &str, slices: u32) -> Scene {
             vector(random, 1.6)
         );
     }
-    load(&text)
+    scene_of(&text)
 }
 
 const SCENES: usize = 16;
@@ -288,7 +282,7 @@ fn extreme_beams_are_right() {
     let context = context::open(&ContextRequest::default()).unwrap();
     let mut renderer = Renderer::new(&context);
     let scene = |camera: &str, light: &str, dust: &str| {
-        load(&format!(
+        scene_of(&format!(
             "[image]\nsize = [80, 60]\nbackground = [0.1, 0.2, 0.3]\n[camera]\nfov_y = 50.0\n{camera}\n[[light]]\nkind = \"spot\"\n\
              near = 0.5\nfar = 8.0\ncone = 40.0\n{light}\ncolor = [1.0, 0.9, 0.8]\ndust = {{ {dust} }}\n\
              shadow = {{ technique = \"shadow-map\", size = 1024 }}\n[[object]]\nmesh = \"box\"\nscale = 0.3\n\

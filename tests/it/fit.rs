@@ -2,6 +2,7 @@
 
 use std::fmt::Write as _;
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::judge::metrics::{Band, Metrics, compare};
@@ -21,10 +22,7 @@ fn field(eye: [f64; 3], target: [f64; 3], light: [f64; 3], cone: f64) -> Scene {
         let (mesh, x, z) = (["box", "sphere"][k % 2], 2.5 * ((k % 5) as f64 - 2.0), 2.5 * ((k / 5) as f64 - 2.0));
         let _ = writeln!(text, "[[object]]\nmesh = \"{mesh}\"\nscale = 0.5\ntranslate = [{x:?}, 0.6, {z:?}]");
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("field.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
+    scene_of(&text)
 }
 
 /// Factor by which a pixel gets more texels, as the plan says.

@@ -4,12 +4,12 @@
 
 use std::fmt::Write as _;
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::judge::metrics::{Band, Metrics, compare};
 use glumbra::pass::Work;
 use glumbra::plan::{Plan, Request};
-use glumbra::scene::Scene;
 use glumbra::stress;
 use glumbra::techniques;
 use glumbra::truth::{self, Answer};
@@ -81,13 +81,6 @@ impl Random {
 
 const FLOOR: &str = "[[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n";
 
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
-}
-
 /// Draws a scene under each of the keys in turn.
 struct Judge {
     renderer: Renderer,
@@ -102,7 +95,7 @@ impl Judge {
     }
 
     fn judge(&mut self, text: &str, techniques: &[&str], mut check: impl FnMut(&str, &Plan, &Metrics)) {
-        let scene = load(text);
+        let scene = scene_of(text);
         // Floors without end and cut-outs leave much in doubt; what is certain is compared.
         let options = truth::Options { most_ambiguous: 1.0, ..truth::Options::default() };
         let truth = truth::trace(&scene, 0, &options).unwrap();

@@ -10,6 +10,7 @@ use glumbra::plan::{Request, ViewRequest};
 use glumbra::views::View;
 
 use crate::support::random::Random;
+use crate::support::scene_of;
 
 const SIZE: [u32; 2] = [160, 120];
 
@@ -221,10 +222,7 @@ impl World {
 
 /// Share of wrong pixels, and whether the plan warns; `None`: the scene is refused, or shows too little.
 fn wrong(world: &World, shadow: &str, renderer: &mut Renderer) -> Option<(f64, bool)> {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, world.to_toml(shadow)).unwrap();
-    let scene = glumbra::load(&path, &[]).unwrap().scene;
+    let scene = scene_of(&world.to_toml(shadow));
     let request = Request { views: vec![ViewRequest { view: View::Shade, light: 0 }], ..Request::default() };
     let plan = renderer.plan(&scene, &request).ok()?;
     let shade = draw_shade(&scene, 0, renderer).unwrap();

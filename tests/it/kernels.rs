@@ -4,6 +4,7 @@
 //! straight down from between the square and the floor: which texels are dark, and where in the map a pixel lies, are
 //! products of similar triangles. [GL 4.6, 8.14.3 and 8.23.1]
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::frame::{Renderer, draw_shade};
 use glumbra::scene::Scene;
@@ -36,10 +37,7 @@ fn scene_under(light: &str, half: f64, edge: f64, fov_y: f64, keys: &str) -> Sce
          [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\ntranslate = [{:?}, {SQUARE:?}, 0.0]\n",
         end - 4.0
     );
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("edge.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
+    scene_of(&text)
 }
 
 /// A row of pixels: the floor's x and z that it shows.

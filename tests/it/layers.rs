@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::{Renderer, draw_shade};
@@ -13,13 +14,6 @@ use glumbra::scene::Scene;
 use glumbra::techniques;
 use glumbra::truth::{self, Truth};
 use glumbra::views::View;
-
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
-}
 
 /// The window depth of what lies `distance` before a light with these planes.
 fn window_depth(distance: f64, near: f64, far: f64) -> f64 {
@@ -41,7 +35,7 @@ fn the_middle_of_two_layers_is_stored() {
         write!(text, "[[object]]\nmesh = \"quad\"\ntranslate = [0, {height}, 0]\nscale = [{scale}, 1, {scale}]\n")
             .unwrap();
     }
-    let scene = load(&text);
+    let scene = scene_of(&text);
     let [first, second, third] = [2.0, 5.0, 7.0];
     let depth = |distance| window_depth(distance, near, far);
     // Rounded when it is drawn, fetched and stored: a code each, and of f32 the same near 1.
@@ -85,8 +79,8 @@ fn texels_that_no_two_layers_share_are_left_out() {
     // What is left of the map's texels, in percent.
     for (name, scene, most) in [
         ("solids on a floor", thick([3.0, 2.5, 4.0]), 60.0),
-        ("two quads", load(flat), 30.0),
-        ("one quad", load(alone), 0.0),
+        ("two quads", scene_of(flat), 30.0),
+        ("one quad", scene_of(alone), 0.0),
     ] {
         for keys in
             ["", ", single = \"first\"", ", single = \"first+offset\"", ", compare = \"gequal\", cull = \"back\""]
@@ -115,7 +109,7 @@ fn texels_that_no_two_layers_share_are_left_out() {
 
 /// A box, a sphere and a torus on a floor, seen from `eye`: casters that are many texels thick.
 fn thick(eye: [f64; 3]) -> Scene {
-    load(&format!(
+    scene_of(&format!(
         "[image]\nsize = [384, 384]\n[camera]\neye = {eye:?}\ntarget = [0.0, 0.4, 0.0]\nfov_y = 40.0\n\
          near = 0.1\nfar = 50.0\n[[light]]\nposition = [2.0, 4.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\ncone = 60.0\n\
          near = 0.5\nfar = 20.0\n\

@@ -3,6 +3,7 @@
 
 use std::fmt::Write as _;
 
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
@@ -22,10 +23,7 @@ fn field(eye: [f64; 3], light: [f64; 3], cone: f64, shadow: &str) -> Scene {
         let (mesh, x, z) = (["box", "sphere"][k % 2], 3.0 * ((k % 7) as f64 - 3.0), 3.0 * ((k / 7) as f64 - 3.0));
         let _ = writeln!(text, "[[object]]\nmesh = \"{mesh}\"\nscale = 0.5\ntranslate = [{x:?}, 0.6, {z:?}]");
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("field.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
+    scene_of(&text)
 }
 
 fn unseen(plan: &Plan) -> usize {
@@ -99,10 +97,7 @@ fn an_unseen_second_layer_is_drawn() {
         + "casts_shadow = false\n"
         + &quad(2.6, 0.5);
     let mut picture = |text: &str, keep_all| {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("layers.toml");
-        std::fs::write(&path, text).unwrap();
-        let scene = glumbra::load(&path, &[]).unwrap().scene;
+        let scene = scene_of(text);
         let plan = renderer.plan(&scene, &Request { keep_all, ..Request::default() }).unwrap();
         renderer.draw(&plan).unwrap();
         (renderer.read(&plan).unwrap().picture, unseen(&plan))
@@ -195,10 +190,7 @@ fn back_faces_of_closed_objects_are_left_out() {
                  [[light]]\nkind = \"spot\"\nposition = [2.0, 4.0, 3.0]\ntarget = [0.0, 0.5, 0.0]\ncone = 60.0\nnear = 0.5\nfar = 20.0\n[light.shadow]\ntechnique = \"shadow-map\"\n\
                  [[object]]\nmesh = \"quad\"\nscale = [4.0, 1.0, 4.0]\n[[object]]\nmesh = {mesh:?}\nscale = {scale}\nclosed = true\ntranslate = [0.0, 0.6, 0.0]\n"
             );
-            let folder = tempfile::tempdir().unwrap();
-            let path = folder.path().join("closed.toml");
-            std::fs::write(&path, text).unwrap();
-            let scene = glumbra::load(&path, &[]).unwrap().scene;
+            let scene = scene_of(&text);
             let mut picture = |closed| {
                 let mut scene = scene.clone();
                 scene.objects[1].closed = closed;
@@ -350,4 +342,25 @@ fn shades_are_the_same_without_the_picture() {
         assert!(alone == beside, "{keys}");
         assert!(fewer < all, "{keys}: {fewer} of {all} passes");
     }
+}
+
+/// Without a guard a wall behind the light looks up, mirrored, what is before the light: a caster there shows in it although
+/// the camera sees nothing that it shadows.
+#[test]
+fn what_an_unguarded_light_projects_backwards_is_drawn() {
+    let context = context::open(&ContextRequest::default()).unwrap();
+    let mut renderer = Renderer::new(&context);
+    let text = "[image]\nsize = [96, 96]\n[camera]\neye = [-0.5, 0.2, 0.1]\ntarget = [-5.0, 0.0, 0.0]\nfov_y = 60.0\nnear = 0.1\nfar = 60.0\n\
+         [[light]]\nkind = \"spot\"\nposition = [0.0, 0.0, 0.0]\ntarget = [3.0, 0.0, 0.0]\ncone = 60.0\nnear = 0.5\nfar = 20.0\n\
+         [light.shadow]\ntechnique = \"shadow-map\"\nsize = 128\nguard = \"none\"\n\
+         [[object]]\nmesh = \"quad\"\nrotate = { axis = [0, 0, 1], angle = 90 }\nscale = 6.0\ntranslate = [-5.0, 0.0, 0.0]\n\
+         [[object]]\nmesh = \"box\"\nscale = 0.5\ntranslate = [3.0, 0.0, 0.0]\n";
+    let mut picture = |text: &str, keep_all| {
+        let plan = renderer.plan(&scene_of(text), &Request { keep_all, ..Request::default() }).unwrap();
+        renderer.draw(&plan).unwrap();
+        renderer.read(&plan).unwrap().picture
+    };
+    let whole = picture(text, true);
+    assert!(whole != picture(&format!("{text}casts_shadow = false\n"), true), "nothing is projected backwards");
+    assert!(whole == picture(text, false));
 }

@@ -1,7 +1,6 @@
 //! More lights than one pass holds: the picture is the sum of the lights' own pictures.
 
-use std::path::PathBuf;
-
+use crate::support::scene_of;
 use glumbra::context::{self, ContextRequest};
 use glumbra::device::Pixels;
 use glumbra::frame::Renderer;
@@ -33,10 +32,7 @@ fn scene(lights: usize, shadow: impl Fn(usize) -> &'static str) -> Scene {
             shadow(index)
         );
     }
-    let folder = tempfile::tempdir().unwrap();
-    let path: PathBuf = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
+    scene_of(&text)
 }
 
 /// The same without other lights than `kept`, and without ambient light of the scene.

@@ -8,6 +8,7 @@ use glumbra::techniques;
 use glumbra::truth::{self, Answer};
 
 use crate::support::random::Random;
+use crate::support::scene_of;
 
 /// A square that faces the light from up to 48 % of the cone's angle off its axis, turned away from it by up to 80
 /// degrees, seen from its lit side; all of it `unit` times as large.
@@ -41,10 +42,7 @@ fn plane(random: &mut Random, unit: f64) -> Scene {
         axis.to_array(),
         angle.to_degrees(),
     );
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("plane.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
+    scene_of(&text)
 }
 
 /// The bias follows from the map's own axes: a normal offset by the angle of the light's ray in place of its axis darkens

@@ -8,7 +8,7 @@ use glumbra::context::{self, ContextRequest};
 use glumbra::frame::Renderer;
 use glumbra::scene::LightKind;
 use glumbra::stress::files::{self, FileChanges};
-use glumbra::stress::{self, Case, StressOptions, Verdict};
+use glumbra::stress::{self, Case, CaseSource, StressOptions, Verdict};
 use serde_json::{Value, json};
 
 use crate::gltf::glb::{Glb, wedge};
@@ -88,7 +88,7 @@ fn what_the_loader_warns_of_excuses_no_wrong_picture() {
         result.rows.iter().find(|row| row.light == 0).unwrap().verdict
     };
     assert_eq!(verdict(&given), Verdict::SilentlyWrong);
-    assert_eq!(verdict(&Case { is_given: false, ..given }), Verdict::Warned);
+    assert_eq!(verdict(&Case { source: CaseSource::Named, ..given }), Verdict::Warned);
 }
 
 /// `glumbra stress` in a folder, of few rows.

@@ -8,6 +8,7 @@ use glumbra::techniques;
 use glumbra::truth::{self, Truth};
 
 use crate::support::random::Random;
+use crate::support::scene_of;
 
 fn list(point: [f64; 3]) -> String {
     format!("{point:?}")
@@ -58,13 +59,6 @@ fn sun(random: &mut Random) -> String {
     format!("[[light]]\nkind = \"directional\"\ndirection = {}\n", list(direction))
 }
 
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
-}
-
 /// The errors on surfaces that face the light; `None`: too few to count.
 fn errors(scene: &Scene, truth: &Truth, keys: &str, renderer: &mut Renderer) -> Option<Errors> {
     let keys = format!("technique = \"shadow-map\", size = 1024, {keys}");
@@ -107,7 +101,7 @@ fn a_floor_beyond_the_box_of_a_sun_is_lit() {
     let mut renderer = Renderer::new(&context);
     for height in [0.4, 0.49, 0.499, 0.5, 0.51, 0.55, 0.6] {
         for direction in [[0.4, -1.0, 0.3], [-1.0, -0.3, 0.2], [0.0, -1.0, 0.0]] {
-            let scene = load(&format!(
+            let scene = scene_of(&format!(
                 "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\nfov_y = 60.0\n\
                  [[light]]\nkind = \"directional\"\ndirection = {}\n\
                  [[object]]\nmesh = \"quad\"\nscale = [6.0, 1.0, 6.0]\n\
@@ -131,7 +125,7 @@ fn random_scenes_under_a_sun() {
     for seed in 0..16 {
         let random = &mut Random::new(seed);
         let floor = format!("[[object]]\nmesh = \"quad\"\nscale = {}\n", list([random.within(2.0, 8.0), 1.0, 8.0]));
-        let scene = load(&format!("{}{}{floor}{}", camera(random), sun(random), objects(random)));
+        let scene = scene_of(&format!("{}{}{floor}{}", camera(random), sun(random), objects(random)));
         let Some(truth) = truth(&scene) else { continue };
         for keys in LOOKUPS {
             let Some(errors) = errors(&scene, &truth, keys, &mut renderer) else { continue };
@@ -158,7 +152,7 @@ fn floors_as_large_as_may_be() {
             let angle = Random::new(seed as u64).within(0.0, 90.0);
             // Without a far plane all of the floor is seen. Texels of a sun's map are then too coarse for the picture.
             let far = if seed % 2 == 1 && light != sun { "" } else { "far = 500.0\n" };
-            let scene = load(&format!(
+            let scene = scene_of(&format!(
                 "[image]\nsize = [160, 120]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\n{far}\
                  [[light]]\n{light}\
                  [[object]]\nmesh = \"quad\"\nscale = [{half:?}, 1.0, {half:?}]\nrotate = {{ axis = [0, 1, 0], angle = {angle:?} }}\n\

@@ -11,13 +11,7 @@ use glumbra::plan::{Plan, Request};
 use glumbra::scene::{Focus, LightKind, Scene, Spot};
 
 use crate::support::random::Random;
-
-pub fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("scene.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap().scene
-}
+use crate::support::scene_of;
 
 /// The picture in floats, row by row from the top, and its plan.
 pub fn draw(scene: &Scene, renderer: &mut Renderer) -> (Vec<[f64; 3]>, Plan) {
@@ -83,5 +77,5 @@ pub fn random_scene(random: &mut Random, technique: &str, focus: [f64; 2], sampl
             vector(random, 1.6)
         );
     }
-    load(&text)
+    scene_of(&text)
 }

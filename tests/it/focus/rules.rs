@@ -7,8 +7,9 @@ use glumbra::frame::Renderer;
 use glumbra::plan::{self, Request};
 use glumbra::truth;
 
-use super::{draw, load, random_scene, spot_of, with_lens};
+use super::{draw, random_scene, spot_of, with_lens};
 use crate::support::random::Random;
+use crate::support::scene_of;
 
 const TECHNIQUES: [&str; 6] = [
     "technique = \"none\"",
@@ -189,7 +190,7 @@ fn what_a_lens_cannot_have_is_refused() {
     }
     // Without a lens that matters, all of it is allowed.
     let one = spot.replace("radius = 0.1", "radius = 0.1, samples = 1");
-    load(&format!(
+    scene_of(&format!(
         "[camera]\neye = [0, 1, 4]\ntarget = [0, 0, 0]\n[[object]]\nmesh = \"box\"\n[[light]]\n{one}\nshadow = {{ technique = \"shadow-volume\" }}\n"
     ));
 }

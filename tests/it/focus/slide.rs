@@ -8,14 +8,15 @@ use glumbra::frame::Renderer;
 use glumbra::geometry::Texture;
 use glumbra::scene::{ImageFilter, Scene};
 
-use super::{draw, load, spot_of, with_lens};
+use super::{draw, spot_of, with_lens};
+use crate::support::scene_of;
 
 const SIZE: [usize; 2] = [256, 192];
 const FOV: f64 = 40.0;
 
 /// A plane square to the axis at a distance, unlit so that the picture is the image's own, seen and lit from one place.
 fn board(distance: f64, image: &[[u8; 3]], width: u32) -> Scene {
-    let mut scene = load(&format!(
+    let mut scene = scene_of(&format!(
         "[image]\nsize = [{}, {}]\nbackground = [0, 0, 0]\n[shading]\nambient = [0, 0, 0]\n[camera]\neye = [0, 0, 0]\n\
          target = [0, 0, -1]\nfov_y = {FOV:?}\nnear = {:?}\nfar = {:?}\n[[light]]\nkind = \"spot\"\nshape = \"frustum\"\n\
          position = [0, 0, 0]\ntarget = [0, 0, -1]\ncone = 80.0\nnear = 0.01\nfar = 100.0\n[[object]]\nmesh = \"quad\"\n\

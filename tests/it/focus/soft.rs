@@ -6,8 +6,9 @@ use glumbra::plan::{self, Request};
 use glumbra::scene::Scene;
 use glumbra::truth::{self, LensLight};
 
-use super::{draw, load, random_points, random_scene, with_lens};
+use super::{draw, random_points, random_scene, with_lens};
 use crate::support::random::Random;
+use crate::support::scene_of;
 
 /// Differences of a picture from what truth found, largest channel of each pixel.
 fn errors(picture: &[[f64; 3]], due: &[LensLight]) -> Vec<f64> {
@@ -88,7 +89,7 @@ fn soft_shadows_are_the_mean_of_rays() {
 
 /// A room whose floor and boxes are in the penumbrae of each other.
 fn penumbrae(size: [u32; 2]) -> Scene {
-    load(&format!(
+    scene_of(&format!(
         "[image]\nsize = {size:?}\nbackground = [0, 0, 0]\n[shading]\nambient = [0, 0, 0]\n[camera]\neye = [2.5, 3.0, 4.0]\n\
          target = [0, 0.3, 0]\nfov_y = 40.0\nnear = 0.5\nfar = 20.0\n[[light]]\nkind = \"spot\"\nshape = \"frustum\"\n\
          position = [-1.5, 4.0, 1.0]\ntarget = [0, 0, 0]\ncone = 70.0\nnear = 1.0\nfar = 12.0\ncolor = [1, 1, 1]\n\
@@ -143,7 +144,7 @@ fn more_lens_points_come_nearer_to_the_area() {
 /// The edge of a half plane at `height` over a floor that the light shines down on from 10, and the floor as it is seen
 /// from below the half plane.
 fn edge(height: f64, shadow: &str) -> Scene {
-    load(&format!(
+    scene_of(&format!(
         "[image]\nsize = [240, 8]\nbackground = [0, 0, 0]\n[shading]\nambient = [0, 0, 0]\n[camera]\neye = [0, 1.5, 0]\n\
          target = [0, 0, 0]\nup = [0, 0, -1]\nfov_y = 1.6\nnear = 0.5\nfar = 3.0\n[[light]]\nkind = \"spot\"\n\
          shape = \"frustum\"\nposition = [0, 10, 0]\ntarget = [0, 0, 0]\nup = [0, 0, -1]\ncone = 40.0\nnear = 1.0\n\

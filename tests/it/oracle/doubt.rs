@@ -1,15 +1,8 @@
 //! Doubt belongs to the pixel: what the scene reaches elsewhere makes no pixel ambiguous, and walls along the light make
 //! no scene unusable.
 
-use glumbra::scene::Scene;
+use crate::support::scene_of;
 use glumbra::truth::{self, Answer, Options, Reason};
-
-fn load(text: &str) -> Scene {
-    let folder = tempfile::tempdir().unwrap();
-    let path = folder.path().join("a.toml");
-    std::fs::write(&path, text).unwrap();
-    glumbra::load(&path, &[]).unwrap_or_else(|error| panic!("{error}\n{text}")).scene
-}
 
 const CAMERA: &str =
     "[image]\nsize = [128, 128]\n[camera]\neye = [3.0, 2.5, 4.0]\ntarget = [0.0, 0.6, 0.0]\nnear = 0.5\n";
@@ -23,7 +16,7 @@ fn a_larger_floor_makes_no_pixel_doubtful() {
     ] {
         let mut answers = Vec::new();
         for half in [100.0, 4000.0, 1e5, 1e8] {
-            let scene = load(&format!(
+            let scene = scene_of(&format!(
                 "{CAMERA}far = 50.0\n[[light]]\n{light}\n[[object]]\nmesh = \"box\"\nscale = 0.5\n\
                  translate = [0.0, 0.5, 0.0]\n[[object]]\nmesh = \"torus\"\nscale = 0.5\ntranslate = [1.0, 0.8, 1.0]\n\
                  [[object]]\nmesh = \"quad\"\nscale = [{half:?}, 1.0, {half:?}]\n"
@@ -52,7 +45,7 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
         .map(|[x, z]| format!("[[object]]\nmesh = \"box\"\nscale = [0.4, 1.0, 0.4]\ntranslate = [{x:?}, 1.0, {z:?}]\n"))
         .collect();
     for direction in ["[0, -1, 0]", "[0, -1, 1e-9]", "[0.6, -0.8, 0.2]"] {
-        let scene = load(&format!(
+        let scene = scene_of(&format!(
             "{CAMERA}far = 50.0\n[[light]]\nkind = \"directional\"\ndirection = {direction}\n{walls}\
              [[object]]\nmesh = \"quad\"\nscale = 4.0\n"
         ));
@@ -65,7 +58,7 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
         }
     }
     // A surface that takes light whichever way it is turned is another matter.
-    let scene = load(&format!(
+    let scene = scene_of(&format!(
         "{CAMERA}far = 50.0\n[[light]]\nkind = \"directional\"\ndirection = [0, -1, 0]\n{}",
         walls.replace("[[object]]\n", "[[object]]\nlit = false\n")
     ));
@@ -78,7 +71,7 @@ fn walls_under_an_overhead_sun_are_no_reason_to_refuse() {
 #[test]
 fn a_light_so_far_away_that_nothing_is_sure_is_found_out_early() {
     let model = concat!(env!("CARGO_MANIFEST_DIR"), "/data/meshes/dense.obj");
-    let scene = load(&format!(
+    let scene = scene_of(&format!(
         "{CAMERA}[[light]]\nkind = \"point\"\nposition = [4e9, 4, 3]\n[[object]]\nmesh = \"quad\"\nscale = 4.0\n\
          [[object]]\nmesh = {model:?}\n"
     ));
